@@ -1,0 +1,46 @@
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <utility>
+
+namespace isoglass {
+
+/// Holds the newest value that one thread hands to another; an older one that nobody took is dropped.
+///
+/// Any number of threads may call any member. `post` and `tryTake` never wait for the other side.
+template <typename T>
+class Mailbox {
+  public:
+    /// Puts `value` in place of whatever lies in the box.
+    void post(T value) {
+        std::optional<T> dropped(std::move(value));
+        {
+            const std::scoped_lock lock(mutex_);
+            std::swap(value_, dropped);
+        }
+        arrived_.notify_one();
+    }
+
+    /// Takes the value if there is one.
+    std::optional<T> tryTake() {
+        const std::scoped_lock lock(mutex_);
+        return std::exchange(value_, std::nullopt);
+    }
+
+    /// Waits for a value; nothing when `stop` was requested first.
+    std::optional<T> take(std::stop_token stop) {
+        std::unique_lock lock(mutex_);
+        arrived_.wait(lock, stop, [this] { return value_.has_value(); });
+        return std::exchange(value_, std::nullopt);
+    }
+
+  private:
+    std::mutex mutex_;
+    std::condition_variable_any arrived_;
+    std::optional<T> value_;
+};
+
+}  // namespace isoglass

@@ -1,0 +1,28 @@
+#include "basis/parallel.h"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+
+namespace isoglass {
+
+void parallelFor(std::size_t count, std::size_t grain, int threads,
+                 const std::function<void(std::size_t, std::size_t)>& body) {
+    const std::size_t chunks = (count + grain - 1) / grain;
+    const auto runChunk = [&](std::size_t chunk) {
+        body(chunk * grain, std::min(count, (chunk + 1) * grain));
+    };
+    if (threads == 1 || chunks < 2) {
+        for (std::size_t chunk = 0; chunk < chunks; ++chunk) runChunk(chunk);
+        return;
+    }
+    const auto loop = [&] { tbb::parallel_for(std::size_t{0}, chunks, runChunk, tbb::simple_partitioner{}); };
+    if (threads == 0) {
+        loop();
+    } else {
+        tbb::task_arena(threads).execute(loop);
+    }
+}
+
+}  // namespace isoglass
