@@ -1,0 +1,40 @@
+#pragma once
+
+#include "volume/lattice.h"
+#include "volume/netcdf_file.h"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isoglass {
+
+/// Which dimensions of a variable are x, y, z and time, as positions in `NetcdfVariable::dimensions`.
+/// Dimensions of one sample that are none of these are left out.
+struct GridShape {
+    std::array<std::size_t, 3> axes;  ///< of x, y, z; each is longer than one sample
+    std::optional<std::size_t> time;
+    /// The variable with the coordinates of each dimension, null where there is none.
+    std::vector<const NetcdfVariable*> coordinates;
+};
+
+/// Finds the shape by the CF attributes of the coordinate variables: `axis`, `units` (degrees east and
+/// north, pressure, "... since ..."), `positive`, `standard_name`; a dimension named "time" is time.
+/// What is left is taken from the last dimension to the first as x, y, z, time. Coordinates are the
+/// variable of the dimension's name or one listed in the attribute `coordinates`. Nothing where the
+/// variable is not numeric or has no three axes longer than one sample.
+std::optional<GridShape> findShape(const NetcdfFile& file, const NetcdfVariable& variable);
+
+/// Reads the coordinates of the dimension at `position`, or counts the samples where there are none.
+/// Negates an axis that points down, makes a whole circle periodic, keeps a descending axis. Adds a
+/// sentence to `notes` for each. Throws Error where coordinates are not finite or not strictly monotonic.
+Axis readAxis(const NetcdfFile& file, const NetcdfVariable& variable, const GridShape& shape,
+              std::size_t position, std::vector<std::string>& notes);
+
+/// The attribute `modulo` of a coordinate variable as a number, whether it is stored as one or as text.
+/// Nothing where it is not finite and positive.
+std::optional<double> numericModulo(const NetcdfFile& file, const NetcdfVariable& variable);
+
+}  // namespace isoglass

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "volume/series_description.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace isoglass {
+
+/// A file or sequence in some foreign format, read one key frame at a time.
+///
+/// Use from one thread at a time.
+class FrameSource {
+  public:
+    virtual ~FrameSource() = default;
+
+    /// Complete but for `frames`; known as soon as the source is open.
+    virtual const SeriesDescription& description() const = 0;
+
+    /// Reads key frame `frame` into `samples`: dims x*y*z values, x fastest, then y, then z. A missing
+    /// sample (fill value, NaN, infinity, or of magnitude above kLargestValue) becomes a quiet NaN.
+    virtual void read(std::size_t frame, std::span<float> samples) = 0;
+};
+
+/// Samples above this magnitude count as missing: a difference of two could not be represented.
+inline constexpr float kLargestValue = 1.7e38f;
+
+struct ImportOptions {
+    std::string variable;       ///< which variable to read; empty takes the only one that has the shape
+    std::vector<double> times;  ///< replaces the times of the source, one a key frame; empty keeps them
+};
+
+/// Opens a NetCDF file by the CF conventions: time units and calendar (year 0, climatologies, modulo
+/// axes), `_FillValue` / `missing_value` / `valid_range`, packed data (`scale_factor`, `add_offset`),
+/// ascending, descending and rectilinear axes, `positive: down`, periodic longitude. Throws Error.
+std::unique_ptr<FrameSource> openNetcdf(const std::filesystem::path& file, const ImportOptions& options);
+
+/// Opens a sequence of PVM files, one key frame each, in the order given (header `PVM`, dims, bytes
+/// per sample, each on a line; then the samples). Times are 0, 1, 2, ... unless `options.times` says
+/// otherwise. Throws Error.
+std::unique_ptr<FrameSource> openPvm(std::span<const std::filesystem::path> files,
+                                     const ImportOptions& options);
+
+}  // namespace isoglass

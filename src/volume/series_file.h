@@ -1,0 +1,61 @@
+#pragma once
+
+#include "volume/frame_source.h"
+#include "volume/key_frame.h"
+#include "volume/series_description.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace isoglass {
+
+/// A series in an OpenVDB file that IsoGlass wrote: one float grid a key frame.
+///
+/// Every member may be called from any thread; reads of samples are serialised.
+class SeriesFile {
+  public:
+    /// Reads the description; no samples. Throws Error where the file cannot be read, is no OpenVDB
+    /// file, or holds no IsoGlass series.
+    explicit SeriesFile(const std::filesystem::path& path);
+    ~SeriesFile();
+
+    const SeriesDescription& description() const;
+    const std::filesystem::path& path() const;
+
+    /// Reads key frame `frame` and builds its brick table. Throws Error where the file is damaged: the
+    /// checksum of the samples is compared with the one in the description.
+    std::shared_ptr<const KeyFrame> read(std::size_t frame) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// What an import may give up to make a series sparser.
+struct SparsityOptions {
+    /// Bricks whose samples span at most twice this become one value; no sample moves by more.
+    double tolerance = 0;
+    /// Keep only what surfaces with iso-values in [min, max] need: bricks that are on one side of the
+    /// interval, with their neighbours in space and time, become one value. Those surfaces and their
+    /// normals stay as in the source.
+    std::optional<ValueRange> keep;
+};
+
+/// Called after each key frame with how many are done.
+using ImportProgress = std::function<void(std::size_t done, std::size_t total)>;
+
+/// Writes the whole source to `out` as a sparse series and returns its description.
+///
+/// Constant regions become active tiles, missing samples are inactive. The file is written under
+/// another name and renamed when it is whole, so a failure leaves nothing behind and an older file as
+/// it was. The same source and options give the same bytes. Throws Error.
+SeriesDescription writeSeries(FrameSource& source, const std::filesystem::path& out,
+                              const SparsityOptions& options = {}, const ImportProgress& progress = {});
+
+/// Builds a key frame in memory from dense samples (x fastest, NaN = missing), for generated fields.
+std::shared_ptr<const KeyFrame> makeKeyFrame(const Lattice& lattice, std::span<const float> samples);
+
+}  // namespace isoglass
