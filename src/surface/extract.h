@@ -1,0 +1,59 @@
+#pragma once
+
+#include "mesh/surface_mesh.h"
+#include "surface/view.h"
+#include "volume/key_frame.h"
+#include "volume/lattice.h"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+
+namespace isoglass {
+
+/// The field at one time: linear between two key frames, f = a + fraction * (b - a).
+struct TimedField {
+    std::shared_ptr<const KeyFrame> a;
+    std::shared_ptr<const KeyFrame> b;  ///< may be null where `fraction` is 0
+    float fraction = 0;                 ///< in [0,1]; 0 takes `a` alone and 1 `b` alone, bit by bit
+};
+
+struct ExtractOptions {
+    /// The surface separates f >= iso (inside) from the rest; compared as float, like the samples.
+    float iso = 0;
+    bool insideIsBelow = false;  ///< inside is f <= iso instead
+    /// From where the mesh will be seen. Full resolution satisfies every view, so it changes nothing
+    /// until meshes have levels of detail.
+    std::optional<View> view = {};
+    int threads = 0;  ///< 0 takes all cores; the mesh does not depend on it
+};
+
+struct ExtractStats {
+    std::size_t bricks = 0;         ///< all bricks of the domain
+    std::size_t touchedBricks = 0;  ///< those whose time-interpolated range holds the iso-value
+    /// Cells that the surface would cross by their valid samples but for a missing one: holes in the mesh.
+    std::size_t lostCells = 0;
+    /// Hull of the bricks' time-interpolated ranges: the surface is empty when it does not hold the
+    /// iso-value. Empty range (min > max) where no sample is valid.
+    ValueRange range{};
+};
+
+struct Extraction {
+    SurfaceMesh mesh;
+    ExtractStats stats;
+};
+
+/// Extracts one iso-surface at full resolution by compact Kuhn cells (method page, section 1): the six
+/// tetrahedra of a cell decide the topology, the vertices lie on axis edges.
+///
+/// A vertex stands for one lattice edge, so the mesh is an oriented 2-manifold by vertex index whatever
+/// the samples are; its boundary lies where the domain ends or samples are missing. Positions are
+/// world coordinates by the axis tables of `lattice`, normals come from central differences in world
+/// space (one-sided beside the domain's end and missing samples). Zero-area triangles, where samples
+/// equal the iso-value, stay. Cost follows the bricks that the surface touches.
+///
+/// Pure: any number of calls may run at once. The same arguments give the same bytes for any `threads`.
+/// Both key frames must be of `lattice`.
+Extraction extractSurface(const Lattice& lattice, const TimedField& field, const ExtractOptions& options);
+
+}  // namespace isoglass
