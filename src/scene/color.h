@@ -1,0 +1,18 @@
+#pragma once
+
+#include "scene/scene.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace isoglass {
+
+/// Linear-light colour of an sRGB colour "#rrggbb", by the piecewise curve of IEC 61966-2-1; nothing for
+/// any other text.
+std::optional<LinearColor> linearFromHex(std::string_view hex);
+
+/// The sRGB colour "#rrggbb" nearest to `color`; the inverse of `linearFromHex` for each of its results.
+std::string hexFromLinear(const LinearColor& color);
+
+}  // namespace isoglass

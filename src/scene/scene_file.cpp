@@ -1,0 +1,336 @@
+#include "scene/scene_file.h"
+
+#include "base/error.h"
+#include "scene/color.h"
+#include "scene/iso_date.h"
+#include "scene/json_document.h"
+#include "scene/json_node.h"
+#include "scene/scene_format.h"
+
+#include <glm/geometric.hpp>
+
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <optional>
+
+namespace isoglass {
+
+namespace {
+
+using Word = std::string_view;
+
+constexpr NumberRange kPositive{.low = 0, .openLow = true};
+constexpr NumberRange kNotNegative{.low = 0};
+constexpr NumberRange kShare{.low = 0, .high = 1};
+constexpr double kMostFrames = 1e9;
+constexpr int kLargestImage = 16384;
+
+LinearColor readColor(const JsonNode& node) {
+    const auto color = node.value().is_string() ? linearFromHex(node.text()) : std::nullopt;
+    if (!color) node.failExpected("an sRGB colour \"#rrggbb\"");
+    return *color;
+}
+
+/// Lists of things that this version cannot do are fine as long as they are empty.
+void refuseItems(const JsonNode& list, const std::string& thing, const std::string& instead) {
+    if (list.size() > 0) list.item(0).failUnavailable(thing, instead);
+}
+
+float readOpacity(const JsonNode& node) {
+    if (!node.value().is_object()) {
+        if (!node.value().is_number()) node.failExpected("a number from 0 to 1, or a model");
+        return static_cast<float>(node.number(kShare));
+    }
+    constexpr std::array kModels{Word("constant"), Word("slab"), Word("cosine"), Word("iso-spectrum")};
+    if (const auto model = node.find("model")) {
+        const std::size_t which = model->choice(kModels);
+        if (which != 0) {
+            model->failUnavailable("the opacity model " + inQuotes(kModels[which]),
+                                   "use a number or the model \"constant\"");
+        }
+    }
+    node.object().require("model");
+    return static_cast<float>(node.require("opacity").number(kShare));
+}
+
+Surface readSurface(const JsonNode& node) {
+    node.object();
+    Surface surface;
+    surface.iso = node.require("iso").number();
+    if (const auto inside = node.find("inside")) {
+        constexpr std::array kSides{Word("above"), Word("below")};
+        surface.inside = inside->choice(kSides) == 0 ? Inside::above : Inside::below;
+    }
+    if (const auto color = node.find("color")) surface.color = readColor(*color);
+    if (const auto opacity = node.find("opacity")) surface.opacity = readOpacity(*opacity);
+    return surface;
+}
+
+Placement readPlacement(const JsonNode& node) {
+    node.object();
+    Placement place;
+    if (const auto translate = node.find("translate")) place.translate = translate->vector();
+    if (const auto rotate = node.find("rotate")) {
+        rotate->numbers(4, [&](std::size_t i, double value) { place.rotate[static_cast<int>(i)] = value; });
+        const double length = glm::length(glm::dvec3(place.rotate));
+        if (!(length > 0) || !std::isfinite(length))
+            rotate->fail("expected an axis that is not zero", "[x, y, z, angle]");
+    }
+    if (const auto scale = node.find("scale")) {
+        place.scale = scale->vector();
+        for (int i = 0; i < 3; ++i) {
+            if (place.scale[i] == 0)
+                scale->item(static_cast<std::size_t>(i)).failExpected("a number other than 0");
+        }
+    }
+    return place;
+}
+
+ClockMap readClock(const JsonNode& node) {
+    node.object();
+    ClockMap clock;
+    if (const auto offset = node.find("offset")) clock.offset = offset->number();
+    if (const auto scale = node.find("scale")) clock.scale = scale->number();
+    return clock;
+}
+
+std::filesystem::path readSeries(const JsonNode& node, const std::filesystem::path& baseFolder) {
+    const std::string importHint = "import them into one .vdb first: isoglass import";
+    if (node.value().is_array()) node.failUnavailable("a list of series files", importHint);
+    const std::string& text = node.text();
+    if (text.empty()) node.failExpected("the path of a series");
+    if (text.find_first_of("*?") != std::string::npos) {
+        node.failUnavailable("a pattern of series files", importHint);
+    }
+    return (baseFolder / text).lexically_normal();
+}
+
+Volume readVolume(const JsonNode& node, const std::filesystem::path& baseFolder) {
+    node.object();
+    Volume volume;
+    volume.series = readSeries(node.require("series"), baseFolder);
+    const auto name = node.find("name");
+    volume.name = name ? name->text() : volume.series.stem().string();
+    if (const auto grid = node.find("grid")) volume.grid = grid->text();
+    if (const auto place = node.find("place")) volume.place = readPlacement(*place);
+    if (const auto time = node.find("time")) volume.time = readClock(*time);
+    if (const auto boundary = node.find("boundary")) {
+        constexpr std::array kBoundaries{Word("open"), Word("closed")};
+        if (boundary->choice(kBoundaries) == 1) {
+            boundary->failUnavailable("a closed boundary", "use \"open\"");
+        }
+    }
+    if (const auto clip = node.find("clip")) refuseItems(*clip, "clipping", "remove the clip objects");
+    const JsonNode surfaces = node.require("surfaces");
+    if (surfaces.size() == 0) surfaces.fail("expected at least one surface, found none");
+    for (std::size_t i = 0; i < surfaces.size(); ++i)
+        volume.surfaces.push_back(readSurface(surfaces.item(i)));
+    return volume;
+}
+
+SceneTime readTime(const JsonNode& node) {
+    if (node.value().is_number()) return node.number();
+    if (!node.value().is_string() || !isIsoDate(node.text())) {
+        node.failExpected(
+            "seconds, or a date \"YYYY-MM-DD\", \"YYYY-MM-DDTHH:MM\" or \"YYYY-MM-DDTHH:MM:SS\"");
+    }
+    return node.text();
+}
+
+Timeline readTimeline(const JsonNode& node) {
+    node.object();
+    Timeline time;
+    const auto to = node.find("to");
+    if (const auto from = node.find("from")) time.from = readTime(*from);
+    time.to = to ? readTime(*to) : time.from;
+    if (time.from.index() != time.to.index()) {
+        to->failExpected("the same kind as \"from\": both seconds or both dates");
+    }
+    if (const auto fps = node.find("fps")) time.fps = fps->number(kPositive);
+    if (const auto duration = node.find("duration")) {
+        time.duration = duration->number(kNotNegative);
+        if (!(time.duration * time.fps <= kMostFrames))
+            duration->failExpected("at most 1e9 displayed frames");
+    }
+    return time;
+}
+
+void checkPose(const JsonNode& node, const CameraPose& pose, glm::dvec3 up) {
+    // Directions closer than this have no usable cross product left in single precision.
+    constexpr double kSmallestSine = 1e-6;
+    const glm::dvec3 view = pose.target - pose.eye;
+    const double distance = glm::length(view);
+    if (distance == 0) node.fail("the eye is at the target", "move one of the two");
+    if (!std::isfinite(distance)) node.fail("the eye is too far from the target");
+    const double sine = glm::length(glm::cross(glm::normalize(view), glm::normalize(up)));
+    if (!(sine > kSmallestSine)) {
+        node.fail("the camera looks along \"up\"",
+                  "choose another up, such as [0,1,0] for a view from above");
+    }
+}
+
+CameraPose readPose(const JsonNode& node, CameraPose pose) {
+    if (const auto eye = node.find("eye")) pose.eye = eye->vector();
+    if (const auto target = node.find("target")) pose.target = target->vector();
+    return pose;
+}
+
+void readPath(const JsonNode& node, Camera& camera) {
+    for (std::size_t i = 0; i < node.size(); ++i) {
+        const JsonNode item = node.item(i);
+        item.object();
+        const JsonNode at = item.require("at");
+        const CameraKey key{at.number(kNotNegative), readPose(item, camera.pose)};
+        if (i > 0 && !(key.at > camera.path.back().at))
+            at.failExpected("a later time than that of the key before");
+        checkPose(item, key.pose, camera.up);
+        camera.path.push_back(key);
+    }
+}
+
+Camera readCamera(const JsonNode& node) {
+    node.object();
+    Camera camera;
+    camera.pose = readPose(node, camera.pose);
+    if (const auto up = node.find("up")) {
+        camera.up = up->vector();
+        const double length = glm::length(camera.up);
+        if (!(length > 0) || !std::isfinite(length))
+            up->fail("expected a direction, found a vector of length 0 or too large");
+    }
+    if (const auto fov = node.find("fov")) {
+        camera.fovDegrees = fov->number({.low = 0, .high = 180, .openLow = true, .openHigh = true});
+    }
+    if (const auto path = node.find("path")) readPath(*path, camera);
+    if (camera.path.empty()) checkPose(node, camera.pose, camera.up);
+    return camera;
+}
+
+ImageSettings readImage(const JsonNode& node) {
+    node.object();
+    ImageSettings image;
+    if (const auto size = node.find("size")) {
+        if (size->size() != 2) size->failExpected("[width, height]");
+        image.size = {size->item(0).integer(1, kLargestImage), size->item(1).integer(1, kLargestImage)};
+    }
+    if (const auto background = node.find("background")) image.background = readColor(*background);
+    if (const auto samples = node.find("samples")) {
+        const int count = samples->integer(1, 64);
+        if (count != 1 && count != 4) {
+            samples->failUnavailable(std::to_string(count) + " samples a pixel", "use 1 or 4");
+        }
+        image.supersample = count == 4 ? 2 : 1;
+    }
+    if (const auto exposure = node.find("exposure")) {
+        image.exposure = static_cast<float>(exposure->number({.low = 1e-6, .high = 1e6}));
+    }
+    return image;
+}
+
+Lighting readLighting(const JsonNode& node) {
+    node.object();
+    Lighting lighting;
+    const auto read = [&](Word key, float& weight, const NumberRange& range) {
+        if (const auto found = node.find(key)) weight = static_cast<float>(found->number(range));
+    };
+    read("ambient", lighting.ambient, kShare);
+    read("diffuse", lighting.diffuse, kShare);
+    read("specular", lighting.specular, kShare);
+    read("shininess", lighting.shininess, {.low = 1, .high = 10000});
+    return lighting;
+}
+
+TransparencyMethod readTransparency(const JsonNode& node) {
+    node.object();
+    const std::string available = "use auto, 3-pass or 4-pass";
+    auto method = TransparencyMethod::automatic;
+    if (const auto named = node.find("method")) {
+        constexpr std::array kMethods{Word("auto"),   Word("3-pass"), Word("4-pass"),
+                                      Word("2-pass"), Word("peel"),   Word("exact")};
+        const std::size_t which = named->choice(kMethods);
+        if (which > 2) named->failUnavailable("the method " + inQuotes(kMethods[which]), available);
+        constexpr std::array kBuilt{TransparencyMethod::automatic, TransparencyMethod::threePass,
+                                    TransparencyMethod::fourPass};
+        method = kBuilt[which];
+    }
+    if (const auto layers = node.find("layers")) layers->failUnavailable("depth peeling", available);
+    return method;
+}
+
+void readDetail(const JsonNode& node, Scene& scene) {
+    node.object();
+    const auto pixels = node.find("pixels");
+    const auto errorPixels = node.find("error_pixels");
+    if (pixels && errorPixels)
+        errorPixels->fail("\"pixels\" and \"error_pixels\" exclude each other", "keep one");
+    if (pixels) scene.quality.pixels = pixels->number(kPositive);
+    if (errorPixels) scene.quality.errorPixels = errorPixels->number(kPositive);
+    if (pixels || errorPixels) {
+        scene.notes.push_back("detail: surfaces are drawn at full resolution, which satisfies any accuracy.");
+    }
+}
+
+void readQuality(const JsonNode& node, Scene& scene) {
+    node.object();
+    if (const auto frame = node.find("frame_ms")) {
+        scene.quality.frameMilliseconds = frame->number(kPositive);
+        scene.notes.push_back("quality: frame_ms is not acted on yet; a frame takes the time it needs.");
+    }
+}
+
+void refuseUnavailable(const JsonNode& root) {
+    if (const auto clip = root.find("clip")) refuseItems(*clip, "clipping", "remove the clip objects");
+    for (const Word key : {Word("terrain"), Word("ocean"), Word("sky"), Word("style")}) {
+        if (const auto node = root.find(key)) {
+            node->failUnavailable(inQuotes(key), "remove it: volumes are what a scene can show");
+        }
+    }
+}
+
+Scene readScene(const JsonNode& root, const std::filesystem::path& baseFolder) {
+    root.object();
+    root.require("version").integer(1, 1);
+    if (const auto schema = root.find("$schema")) schema->text();
+    refuseUnavailable(root);
+    Scene scene;
+    const JsonNode volumes = root.require("volumes");
+    if (volumes.size() == 0) volumes.fail("expected at least one volume, found none");
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+        scene.volumes.push_back(readVolume(volumes.item(i), baseFolder));
+    }
+    if (const auto time = root.find("time")) scene.time = readTimeline(*time);
+    if (const auto camera = root.find("camera")) scene.camera = readCamera(*camera);
+    if (const auto image = root.find("image")) scene.image = readImage(*image);
+    if (const auto lighting = root.find("lighting")) scene.lighting = readLighting(*lighting);
+    if (const auto method = root.find("transparency")) scene.transparency = readTransparency(*method);
+    if (const auto detail = root.find("detail")) readDetail(*detail, scene);
+    if (const auto quality = root.find("quality")) readQuality(*quality, scene);
+    return scene;
+}
+
+}  // namespace
+
+Scene parseScene(std::string_view text, const std::filesystem::path& baseFolder,
+                 const std::string& nameForErrors) {
+    const nlohmann::json document = parseJson(text, nameForErrors);
+    return readScene(JsonNode(document, nameForErrors), baseFolder);
+}
+
+Scene loadScene(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream)
+        throw Error("cannot open the scene file: " + std::string(std::strerror(errno)), file.string());
+    std::string text;
+    try {
+        text.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+    } catch (const std::ios_base::failure&) {
+        throw Error("cannot read the scene file: " + std::string(std::strerror(errno)), file.string());
+    }
+    return parseScene(text, file.parent_path(), file.string());
+}
+
+}  // namespace isoglass

@@ -1,0 +1,220 @@
+#include "base/error.h"
+#include "scene/scene_file.h"
+#include "scene/scene_format.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace isoglass {
+namespace {
+
+using nlohmann::json;
+
+json smallest() {
+    return json::parse(R"({"version": 1, "volumes": [{"series": "a.vdb", "surfaces": [{"iso": 2}]}]})");
+}
+
+/// The smallest scene with one value put in or replaced.
+std::string sceneWith(const std::string& pointer, const json& value) {
+    json scene = smallest();
+    scene[json::json_pointer(pointer)] = value;
+    return scene.dump();
+}
+
+std::string messageOf(std::string_view text) {
+    try {
+        parseScene(text, "", "scene.json");
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+struct Wrong {
+    const char* pointer;      ///< where the value goes
+    const char* value;        ///< as JSON
+    const char* complaintAt;  ///< pointer that the message must name; null for `pointer`
+    const char* says;
+
+    friend void PrintTo(const Wrong& wrong, std::ostream* stream) {
+        *stream << wrong.pointer << ' ' << wrong.value;
+    }
+};
+
+class SceneErrors : public testing::TestWithParam<Wrong> {};
+
+TEST_P(SceneErrors, NamePlaceAndReason) {
+    const Wrong& wrong = GetParam();
+    const std::string message = messageOf(sceneWith(wrong.pointer, json::parse(wrong.value)));
+    const std::string place = wrong.complaintAt ? wrong.complaintAt : wrong.pointer;
+    EXPECT_NE(message.find("(scene.json, " + place + ")"), std::string::npos) << message;
+    EXPECT_NE(message.find(wrong.says), std::string::npos) << message;
+}
+
+constexpr const char* kSeries = "/volumes/0/series";
+constexpr const char* kOpacity = "/volumes/0/surfaces/0/opacity";
+
+INSTANTIATE_TEST_SUITE_P(
+    Values, SceneErrors,
+    testing::Values(
+        Wrong{"/version", "2", nullptr, "expected a whole number from 1 to 1, found 2"},
+        Wrong{"/version", "\"1\"", nullptr, "found \"1\""},
+        Wrong{"/volumes", "[]", nullptr, "at least one volume"},
+        Wrong{"/volumes", "{}", nullptr, "expected an array, found an empty object"},
+        Wrong{"/volumes/0", "7", nullptr, "expected an object, found 7"},
+        Wrong{"/volumes/0/name", "7", nullptr, "expected a text"},
+        Wrong{kSeries, "\"\"", nullptr, "expected the path"},
+        Wrong{"/volumes/0/grid", "[]", nullptr, "expected a text, found an array of 0"},
+        Wrong{"/volumes/0/surfaces", "[]", nullptr, "at least one surface"},
+        Wrong{"/volumes/0/surfaces/0/iso", "\"high\"", nullptr, "expected a number, found \"high\""},
+        Wrong{"/volumes/0/surfaces/0/inside", "\"bellow\"", nullptr, "did you mean \"below\"?"},
+        Wrong{"/volumes/0/surfaces/0/color", "\"#fff\"", nullptr, "\"#rrggbb\""},
+        Wrong{kOpacity, "1.5", nullptr, "at least 0 and of at most 1, found 1.5"},
+        Wrong{kOpacity, "-0.1", nullptr, "found -0.1"},
+        Wrong{kOpacity, R"({"model": "cosin", "opacity": 1})", "/volumes/0/surfaces/0/opacity/model",
+              "\"cosine\"?"},
+        Wrong{kOpacity, R"({"model": "constant"})", "/volumes/0/surfaces/0/opacity/opacity", "missing"},
+        Wrong{kOpacity, R"({"opacity": 1})", "/volumes/0/surfaces/0/opacity/model", "missing"},
+        Wrong{"/volumes/0/place/translate", "[1, 2]", nullptr, "array of 3 numbers, found an array of 2"},
+        Wrong{"/volumes/0/place/translate", "[1, 2, null]", "/volumes/0/place/translate/2", "found null"},
+        Wrong{"/volumes/0/place/rotate", "[0, 0, 0, 90]", nullptr, "not zero"},
+        Wrong{"/volumes/0/place/scale", "[1, 0, 1]", "/volumes/0/place/scale/1", "other than 0"},
+        Wrong{"/volumes/0/time/scale", "true", nullptr, "found true"},
+        Wrong{"/volumes/0/boundary", "\"shut\"", nullptr, "one of open, closed"},
+        Wrong{"/time/from", "\"2001-13-01\"", nullptr, "YYYY-MM-DD"},
+        Wrong{"/time", R"({"from": 0, "to": "2001-01-01"})", "/time/to", "both seconds or both dates"},
+        Wrong{"/time/duration", "-1", nullptr, "at least 0"},
+        Wrong{"/time/duration", "1e12", nullptr, "1e9 displayed frames"},
+        Wrong{"/time/fps", "0", nullptr, "above 0"},
+        Wrong{"/camera", R"({"eye": [1, 1, 1], "target": [1, 1, 1]})", nullptr, "the eye is at the target"},
+        Wrong{"/camera", R"({"eye": [0, 0, 5], "target": [0, 0, 0]})", nullptr, "along \"up\""},
+        Wrong{"/camera/up", "[0, 0, 0]", nullptr, "length 0"},
+        Wrong{"/camera/fov", "180", nullptr, "below 180"}, Wrong{"/camera/fov", "0", nullptr, "above 0"},
+        Wrong{"/camera/path", R"([{"at": 1}, {"at": 1, "eye": [9, 0, 0]}])", "/camera/path/1/at", "later"},
+        Wrong{"/camera/path", R"([{"at": 1}, {"at": 2, "eye": [0, 0, 9]}])", "/camera/path/1",
+              "along \"up\""},
+        Wrong{"/camera/path", R"([{"eye": [9, 0, 0]}])", "/camera/path/0/at", "missing"},
+        Wrong{"/image/size", "[0, 10]", "/image/size/0", "from 1 to 16384"},
+        Wrong{"/image/size", "[10, 16385]", "/image/size/1", "from 1 to 16384"},
+        Wrong{"/image/size", "[10.5, 10]", "/image/size/0", "whole number"},
+        Wrong{"/image/size", "[10]", nullptr, "[width, height]"},
+        Wrong{"/image/background", "16", nullptr, "\"#rrggbb\", found 16"},
+        Wrong{"/image/exposure", "0", nullptr, "at least 1e-06"},
+        Wrong{"/lighting/ambient", "2", nullptr, "at most 1"},
+        Wrong{"/lighting/shininess", "0", nullptr, "at least 1"},
+        Wrong{"/transparency/method", "\"5-pass\"", nullptr, "did you mean"},
+        Wrong{"/detail", R"({"pixels": 1, "error_pixels": 1})", "/detail/error_pixels", "exclude each other"},
+        Wrong{"/detail/pixels", "0", nullptr, "above 0"},
+        Wrong{"/quality/frame_ms", "-1", nullptr, "above 0"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    NotAvailable, SceneErrors,
+    testing::Values(
+        Wrong{kSeries, R"(["a.vdb", "b.vdb"])", nullptr, "); import them into one .vdb first"},
+        Wrong{kSeries, R"("a*.vdb")", nullptr, "a pattern of series files is not available in this version"},
+        Wrong{"/volumes/0/boundary", "\"closed\"", nullptr, "is not available in this version"},
+        Wrong{"/volumes/0/clip", R"([{"plane": [1, 0, 0, 0]}])", "/volumes/0/clip/0",
+              "not available in this version"},
+        Wrong{kOpacity, R"({"model": "cosine", "extinction": 10})", "/volumes/0/surfaces/0/opacity/model",
+              "the opacity model \"cosine\" is not available in this version"},
+        Wrong{"/image/samples", "8", nullptr, "8 samples a pixel is not available in this version"},
+        Wrong{"/transparency/method", "\"2-pass\"", nullptr, "); use auto, 3-pass or 4-pass"},
+        Wrong{"/transparency/method", "\"exact\"", nullptr,
+              "the method \"exact\" is not available in this version"},
+        Wrong{"/transparency", R"({"method": "peel", "layers": 4})", "/transparency/method", "not available"},
+        Wrong{"/transparency/layers", "4", nullptr, "not available in this version"},
+        Wrong{"/clip", R"([{"plane": [1, 0, 0, 0]}])", "/clip/0", "not available in this version"},
+        Wrong{"/terrain", "{}", nullptr, "not available in this version"},
+        Wrong{"/ocean", "{}", nullptr, "not available in this version"},
+        Wrong{"/sky", "{}", nullptr, "not available in this version"},
+        Wrong{"/style", "{}", nullptr, "not available in this version"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    UnknownKeys, SceneErrors,
+    testing::Values(Wrong{"/colour", "1", nullptr, "unknown key \"colour\""},
+                    Wrong{"/volumes/0/surfaces/0/colour", "1", nullptr, "did you mean \"color\"?"},
+                    Wrong{"/image/szie", "1", nullptr, "did you mean \"size\"?"},
+                    Wrong{"/time/frmo", "1", nullptr, "Known here: from, to, duration, fps"},
+                    Wrong{"/a~1b~0c", "1", nullptr, "\"a/b~c\""}));
+
+TEST(SceneErrors, EveryKnownKeyIsLookedAt) {
+    for (const FormatObject& object : sceneFormat()) {
+        std::string pointer(object.pointer);
+        for (std::size_t star; (star = pointer.find('*')) != std::string::npos;)
+            pointer.replace(star, 1, "0");
+        for (const std::string_view key : object.keys) {
+            std::string place = pointer;
+            place.append("/").append(key);
+            json scene = smallest();
+            if (object.pointer.ends_with("/opacity"))
+                scene[json::json_pointer(pointer)] = {{"model", "constant"}, {"opacity", 1}};
+            if (object.pointer == "/camera/path/*") scene[json::json_pointer(pointer)] = {{"at", 0}};
+            if (object.pointer == "/camera/path/*") scene["camera"]["eye"] = {3, 2, 1};
+            scene[json::json_pointer(place)] = nullptr;
+            const std::string message = messageOf(scene.dump());
+            EXPECT_NE(message.find("(scene.json, " + place + ")"), std::string::npos) << message;
+            EXPECT_EQ(message.find("unknown key"), std::string::npos) << message;
+        }
+    }
+}
+
+TEST(SceneErrors, MissingKeysAreNamed) {
+    for (const char* place :
+         {"/version", "/volumes", "/volumes/0/series", "/volumes/0/surfaces", "/volumes/0/surfaces/0/iso"}) {
+        const json::json_pointer pointer(place);
+        json scene = smallest();
+        scene[pointer.parent_pointer()].erase(pointer.back());
+        const std::string message = messageOf(scene.dump());
+        EXPECT_NE(message.find("(scene.json, " + std::string(place) + ")"), std::string::npos) << message;
+    }
+}
+
+TEST(SceneErrors, RootMustBeAnObject) {
+    EXPECT_NE(messageOf("[]").find("expected an object"), std::string::npos);
+}
+
+TEST(SceneErrors, SyntaxErrorsHaveLineAndColumn) {
+    // The comma after 1 is missing: the parser stumbles over the quote at the start of line 3.
+    const std::string message = messageOf("{\"version\": 1\n\n\"volumes\": []}");
+    EXPECT_NE(message.find("(scene.json, line 3, column "), std::string::npos) << message;
+    EXPECT_NE(message.find("expected"), std::string::npos) << message;
+    EXPECT_EQ(message.find("json.exception"), std::string::npos) << message;
+    EXPECT_EQ(message.find("at line"), std::string::npos) << message;
+}
+
+TEST(SceneErrors, NumbersThatAreNotFiniteAreRefused) {
+    for (const char* number : {"NaN", "Infinity", "1e999", "-1e999"}) {
+        const std::string text =
+            std::string(R"({"version": 1, "volumes": [{"series": "a.vdb", "surfaces": [{"iso": )") + number +
+            "}]}]}";
+        EXPECT_NE(messageOf(text).find("(scene.json, line 1, column "), std::string::npos) << messageOf(text);
+    }
+}
+
+TEST(SceneErrors, EmptyAndTruncatedTextsAreRefused) {
+    const std::string whole = smallest().dump();
+    for (std::size_t length = 0; length < whole.size(); ++length) {
+        EXPECT_NE(messageOf(whole.substr(0, length)).find("(scene.json, line 1, column "), std::string::npos)
+            << length;
+    }
+}
+
+TEST(SceneErrors, RepeatedKeyIsNamed) {
+    const std::string message = messageOf(
+        R"({"version": 1, "volumes": [{"series": "a.vdb", "surfaces": [{"iso": 2}, {"iso": 1, "iso": 2}]}]})");
+    EXPECT_NE(message.find("\"iso\" appears twice (scene.json, /volumes/0/surfaces/1/iso)"),
+              std::string::npos)
+        << message;
+}
+
+TEST(ClosestWord, CountsEdits) {
+    constexpr std::string_view kWords[] = {"size", "samples", "exposure"};
+    EXPECT_EQ(closestWord("sample", kWords), "samples");
+    EXPECT_EQ(closestWord("Exposure", kWords), "exposure");
+    EXPECT_EQ(closestWord("", kWords), "size");
+}
+
+}  // namespace
+}  // namespace isoglass

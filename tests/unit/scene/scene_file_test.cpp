@@ -1,0 +1,136 @@
+#include "scene/scene_file.h"
+
+#include "base/error.h"
+#include "scene/color.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace isoglass {
+namespace {
+
+constexpr const char* kSmallest =
+    R"({"version": 1, "volumes": [{"series": "a.vdb", "surfaces": [{"iso": 2}]}]})";
+
+/// Every key with a value that is not the default.
+constexpr const char* kFull = R"({
+    "$schema": "scene.schema.json",
+    "version": 1,
+    "volumes": [
+        {"name": "storm", "series": "../data/storm.vdb", "grid": "qcloud",
+         "place": {"translate": [1, 2, 3], "rotate": [0, 1, 0, 45], "scale": [1, 2, -3]},
+         "time": {"offset": 5, "scale": -2}, "boundary": "open", "clip": [],
+         "surfaces": [{"iso": 0.5, "inside": "below", "color": "#E04030", "opacity": 0.3},
+                      {"iso": -1e-3, "opacity": {"model": "constant", "opacity": 0.6}}]},
+        {"series": "/data/other.vdb", "surfaces": [{"iso": 7}]}],
+    "time": {"from": "0000-01-16", "to": "0000-12-16T12:00", "duration": 12.5, "fps": 30},
+    "camera": {"eye": [9, 8, 7], "target": [1, 1, 1], "up": [0, 1, 0], "fov": 40,
+               "path": [{"at": 1, "eye": [5, 5, 5]}, {"at": 2.5, "target": [0, 0, 0.1]}]},
+    "image": {"size": [640, 480], "background": "#ffffff", "samples": 4, "exposure": 1.1},
+    "lighting": {"ambient": 0.1, "diffuse": 0.8, "specular": 0.2, "shininess": 20},
+    "transparency": {"method": "4-pass"},
+    "detail": {"error_pixels": 0.5},
+    "quality": {"frame_ms": 40},
+    "clip": []
+})";
+
+Scene parse(std::string_view text) {
+    return parseScene(text, "scenes", "scene.json");
+}
+
+TEST(SceneFile, SmallestSceneHasDefaults) {
+    const Scene scene = parse(kSmallest);
+    Scene expected;
+    expected.volumes.resize(1);
+    expected.volumes[0].name = "a";
+    expected.volumes[0].series = "scenes/a.vdb";
+    expected.volumes[0].surfaces = {{.iso = 2}};
+    EXPECT_EQ(scene, expected);
+}
+
+TEST(SceneFile, EveryKeyIsRead) {
+    const Scene scene = parse(kFull);
+    ASSERT_EQ(scene.volumes.size(), 2u);
+    const Volume& storm = scene.volumes[0];
+    EXPECT_EQ(storm.name, "storm");
+    EXPECT_EQ(storm.series, "data/storm.vdb");
+    EXPECT_EQ(storm.grid, "qcloud");
+    EXPECT_EQ(storm.place, (Placement{{1, 2, 3}, {0, 1, 0, 45}, {1, 2, -3}}));
+    EXPECT_EQ(storm.time, (ClockMap{5, -2}));
+    ASSERT_EQ(storm.surfaces.size(), 2u);
+    EXPECT_EQ(storm.surfaces[0], (Surface{0.5, Inside::below, *linearFromHex("#e04030"), 0.3f}));
+    EXPECT_EQ(storm.surfaces[1], (Surface{.iso = -1e-3, .opacity = 0.6f}));
+    EXPECT_EQ(scene.volumes[1].series, "/data/other.vdb");
+    EXPECT_EQ(scene.time, (Timeline{"0000-01-16", "0000-12-16T12:00", 12.5, 30}));
+    EXPECT_EQ(scene.camera.pose, (CameraPose{{9, 8, 7}, {1, 1, 1}}));
+    EXPECT_EQ(scene.camera.up, glm::dvec3(0, 1, 0));
+    EXPECT_EQ(scene.camera.fovDegrees, 40);
+    ASSERT_EQ(scene.camera.path.size(), 2u);
+    EXPECT_EQ(scene.camera.path[0], (CameraKey{1, {{5, 5, 5}, {1, 1, 1}}}));
+    EXPECT_EQ(scene.camera.path[1], (CameraKey{2.5, {{9, 8, 7}, {0, 0, 0.1}}}));
+    EXPECT_EQ(scene.image, (ImageSettings{{640, 480}, LinearColor(1), 1.1f, 2}));
+    EXPECT_EQ(scene.lighting, (Lighting{0.1f, 0.8f, 0.2f, 20}));
+    EXPECT_EQ(scene.transparency, TransparencyMethod::fourPass);
+    EXPECT_EQ(scene.quality, (Quality{std::nullopt, 0.5, 40}));
+}
+
+TEST(SceneFile, WhatChangesNothingIsNoted) {
+    const Scene scene = parse(kFull);
+    ASSERT_EQ(scene.notes.size(), 2u);
+    EXPECT_EQ(scene.notes[0].substr(0, 7), "detail:");
+    EXPECT_EQ(scene.notes[1].substr(0, 8), "quality:");
+}
+
+TEST(SceneFile, PlaysBackwardsAndKeepsSecondsApartFromDates) {
+    const Scene scene = parse(R"({"version": 1, "volumes": [{"series": "a.vdb", "surfaces": [{"iso": 2}]}],
+                                  "time": {"from": 60, "to": -10, "duration": 1}})");
+    EXPECT_EQ(scene.time.from, SceneTime(60.0));
+    EXPECT_EQ(scene.time.to, SceneTime(-10.0));
+}
+
+TEST(SceneFile, EndOfTimeIsItsBeginningWhereNotGiven) {
+    const Scene scene = parse(R"({"version": 1, "volumes": [{"series": "a.vdb", "surfaces": [{"iso": 2}]}],
+                                  "time": {"from": "2001-02-03"}})");
+    EXPECT_EQ(scene.time.to, SceneTime("2001-02-03"));
+}
+
+TEST(SceneFile, RoundTripThroughJsonKeepsEverything) {
+    for (const char* text : {kSmallest, kFull}) {
+        const Scene scene = parse(text);
+        EXPECT_EQ(parseScene(toJson(scene), "", "round trip"), scene) << toJson(scene);
+    }
+}
+
+TEST(SceneFile, WrittenPathsAreRelativeToTheFolderOfTheScene) {
+    const Scene scene = parse(kFull);
+    const std::string text = toJson(scene, "scenes");
+    EXPECT_NE(text.find("\"../data/storm.vdb\""), std::string::npos) << text;
+    EXPECT_EQ(parse(text).volumes[0].series, scene.volumes[0].series);
+}
+
+TEST(SceneFile, WrittenNumbersHaveNoRoundingTail) {
+    EXPECT_NE(toJson(parse(kFull)).find("\"opacity\": 0.3\n"), std::string::npos) << toJson(parse(kFull));
+}
+
+TEST(SceneFile, LoadsRelativeToItsOwnFolder) {
+    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "isoglass_scene_file";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "s.json") << kSmallest;
+    EXPECT_EQ(loadScene(folder / "s.json").volumes[0].series, folder / "a.vdb");
+    std::filesystem::remove_all(folder);
+}
+
+TEST(SceneFile, FileThatCannotBeReadIsNamed) {
+    for (const char* file : {"/nowhere/scene.json", "/"}) {
+        try {
+            loadScene(file);
+            FAIL() << "no error for " << file;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.where(), file);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace isoglass
