@@ -1,0 +1,4 @@
+#version 450 core
+#include "lib/position.glsl"
+
+void main() { placeVertex(); }

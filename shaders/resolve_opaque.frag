@@ -1,0 +1,8 @@
+#version 450 core
+#include "lib/resolve.glsl"
+
+layout(binding = 0) uniform sampler2D opaqueColor;
+
+vec3 sampleColor(ivec2 position) { return texelFetch(opaqueColor, position, 0).rgb; }
+
+void main() { resolvePixel(); }

@@ -1,0 +1,128 @@
+#include "gl/objects.h"
+
+#include "base/error.h"
+
+#include <cstdio>
+#include <vector>
+
+namespace isoglass::gl {
+namespace {
+
+template <typename Create>
+GLuint make(const Create& create) {
+    GLuint name = 0;
+    create(&name);
+    return name;
+}
+
+}  // namespace
+
+void destroyBuffer(GLuint name) {
+    glDeleteBuffers(1, &name);
+}
+void destroyTexture(GLuint name) {
+    glDeleteTextures(1, &name);
+}
+void destroyFramebuffer(GLuint name) {
+    glDeleteFramebuffers(1, &name);
+}
+void destroyVertexArray(GLuint name) {
+    glDeleteVertexArrays(1, &name);
+}
+void destroyQuery(GLuint name) {
+    glDeleteQueries(1, &name);
+}
+
+Buffer::Buffer(std::size_t bytes, const void* contents, GLbitfield flags)
+    : Handle(make([](GLuint* name) { glCreateBuffers(1, name); })), bytes_(bytes) {
+    // Storage of no bytes is an error in GL.
+    if (bytes > 0) glNamedBufferStorage(name(), static_cast<GLsizeiptr>(bytes), contents, flags);
+}
+
+Buffer Buffer::immutable(std::span<const std::byte> contents) {
+    return {contents.size(), contents.data(), 0};
+}
+
+Buffer Buffer::updatable(std::size_t bytes) {
+    return {bytes, nullptr, GL_DYNAMIC_STORAGE_BIT};
+}
+
+void Buffer::write(std::size_t offset, std::span<const std::byte> contents) const {
+    glNamedBufferSubData(name(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(contents.size()),
+                         contents.data());
+}
+
+Texture::Texture(GLenum format, glm::ivec2 size)
+    : Handle(make([](GLuint* name) { glCreateTextures(GL_TEXTURE_2D, 1, name); })), size_(size) {
+    glTextureStorage2D(name(), 1, format, size.x, size.y);
+    glTextureParameteri(name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+Framebuffer::Framebuffer(std::span<const Texture* const> colors, const Texture* depth,
+                         const std::string& label)
+    : Handle(make([](GLuint* name) { glCreateFramebuffers(1, name); })) {
+    std::vector<GLenum> outputs;
+    for (const Texture* color : colors) {
+        outputs.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(outputs.size()));
+        glNamedFramebufferTexture(name(), outputs.back(), color->name(), 0);
+    }
+    glNamedFramebufferDrawBuffers(name(), static_cast<GLsizei>(outputs.size()), outputs.data());
+    if (depth != nullptr) glNamedFramebufferTexture(name(), GL_DEPTH_ATTACHMENT, depth->name(), 0);
+    const GLenum status = glCheckNamedFramebufferStatus(name(), GL_DRAW_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE) {
+        char text[16];
+        std::snprintf(text, sizeof text, "0x%04X", status);
+        throw Error(std::string("the driver cannot draw into this framebuffer: status ") + text, label);
+    }
+}
+
+VertexArray::VertexArray() : Handle(make([](GLuint* name) { glCreateVertexArrays(1, name); })) {}
+
+void VertexArray::setVec3(GLuint location, const Buffer& buffer) const {
+    glVertexArrayVertexBuffer(name(), location, buffer.name(), 0, 3 * sizeof(float));
+    glVertexArrayAttribFormat(name(), location, 3, GL_FLOAT, GL_FALSE, 0);
+    glVertexArrayAttribBinding(name(), location, location);
+    glEnableVertexArrayAttrib(name(), location);
+}
+
+void VertexArray::setIndices(const Buffer& buffer) const {
+    glVertexArrayElementBuffer(name(), buffer.name());
+}
+
+TimerQuery::TimerQuery() : Handle(make([](GLuint* name) { glCreateQueries(GL_TIME_ELAPSED, 1, name); })) {}
+
+void TimerQuery::begin() const {
+    glBeginQuery(GL_TIME_ELAPSED, name());
+}
+
+void TimerQuery::end() const {
+    glEndQuery(GL_TIME_ELAPSED);
+}
+
+double TimerQuery::milliseconds() const {
+    GLuint64 nanoseconds = 0;
+    glGetQueryObjectui64v(name(), GL_QUERY_RESULT, &nanoseconds);
+    return static_cast<double>(nanoseconds) * 1e-6;
+}
+
+Sync::Sync() : sync_(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)) {}
+
+Sync::~Sync() {
+    if (sync_ != nullptr) glDeleteSync(sync_);
+}
+
+Sync::Sync(Sync&& other) noexcept : sync_(std::exchange(other.sync_, nullptr)) {}
+
+Sync& Sync::operator=(Sync&& other) noexcept {
+    std::swap(sync_, other.sync_);
+    return *this;
+}
+
+bool Sync::wait(double seconds) const {
+    const auto nanoseconds = static_cast<GLuint64>(seconds * 1e9);
+    const GLenum answer = glClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT, nanoseconds);
+    return answer == GL_ALREADY_SIGNALED || answer == GL_CONDITION_SATISFIED;
+}
+
+}  // namespace isoglass::gl

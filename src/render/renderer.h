@@ -1,0 +1,59 @@
+#pragma once
+
+#include "gl/context.h"
+#include "plan/frame_plan.h"
+#include "render/draw_recorder.h"
+#include "render/frame_description.h"
+#include "render/image.h"
+#include "render/mesh_store.h"
+#include "render/pass_executor.h"
+#include "render/render_targets.h"
+
+#include <vector>
+
+namespace isoglass {
+
+/// Draws frames into textures and reads them back.
+///
+/// Made, used and destroyed by the thread that owns the context.
+class Renderer {
+  public:
+    /// `context` must outlive the renderer and be current.
+    explicit Renderer(gl::Context& context);
+
+    MeshStore& meshes() { return meshes_; }
+
+    /// Plans and draws. The image depends on `frame` and its meshes alone. Throws Error for a camera or a
+    /// size that cannot be drawn and for anything that OpenGL complains of; std::invalid_argument for a
+    /// mesh that is not in the store.
+    void render(const FrameDescription& frame);
+
+    /// The passes of the last frame and why; empty before the first.
+    const FramePlan& plan() const { return plan_; }
+
+    /// With timing on, `render` waits for the GPU after each pass.
+    void setTiming(bool on) { timing_ = on; }
+    /// One entry a pass of the last frame; empty with timing off.
+    const std::vector<PassTiming>& timings() const { return timings_; }
+
+    /// The last frame before exposure, not clamped. Reading waits for the GPU. All three throw
+    /// std::logic_error before the first frame.
+    LinearImage readLinear();
+    /// The last frame after exposure and the sRGB curve; alpha is 255.
+    Image readSrgb();
+    /// Depth of what is opaque, in samples (`supersample` times the image's size).
+    DepthImage readDepth();
+
+  private:
+    gl::Context& context_;
+    gl::StateCache state_;
+    MeshStore meshes_;
+    RenderTargets targets_;
+    DrawRecorder recorder_;
+    PassExecutor executor_;
+    FramePlan plan_{};
+    bool timing_ = false;
+    std::vector<PassTiming> timings_;
+};
+
+}  // namespace isoglass

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+#include <array>
+
+namespace isoglass {
+
+/// Uniform block `Frame` of shaders/lib/frame.glsl, std140.
+struct FrameUniforms {
+    static constexpr unsigned kBinding = 0;
+
+    float ambient;
+    float diffuse;
+    float specular;
+    float shininess;
+    float exposure;
+    int supersample;
+    float padding[2] = {};
+};
+
+/// Uniform block `Draw` of shaders/lib/draw.glsl, std140.
+struct DrawUniforms {
+    static constexpr unsigned kBinding = 1;
+
+    glm::mat4 clipFromMesh;
+    glm::mat4 eyeFromMesh;
+    std::array<glm::vec4, 3> normalFromMesh;  ///< columns; the fourth component is padding
+    glm::vec4 colorOpacity;
+};
+
+}  // namespace isoglass

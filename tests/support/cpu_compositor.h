@@ -1,0 +1,51 @@
+#pragma once
+
+#include "mesh/surface_mesh.h"
+#include "render/camera.h"
+#include "render/frame_description.h"
+
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+namespace isoglass::test {
+
+/// Where a pixel's ray meets a surface.
+struct Fragment {
+    double distance;  ///< along the ray
+    bool backFace;
+    std::size_t draw;  ///< index of the surface
+    glm::dvec3 color;  ///< after shading, linear
+    double opacity;
+};
+
+/// A ray in double precision, `direction` of length 1.
+struct Ray {
+    glm::dvec3 origin, direction;
+};
+
+/// Ray through a point of the image in pixels from its upper left corner; pixel (x,y) has its center at
+/// (x + 0.5, y + 0.5).
+Ray pixelRay(const CameraView& camera, double x, double y);
+
+/// The closed forms of the method page, section 2: `threePass` B prod(1-a_i) + sum a_i c_i, `fourPass`
+/// with the sum over the fragments up to the nearest back face. Fragments in any order; those behind the
+/// nearest opaque one do not count.
+glm::dvec3 compose(const std::vector<Fragment>& fragments, const glm::dvec3& background,
+                   TransparencyMethod method);
+
+/// Color of a surface lit from the eye, by the formula of FrameDescription::lighting.
+glm::dvec3 shade(const glm::dvec3& color, const glm::dvec3& normal, const glm::dvec3& toEye,
+                 const Lighting& lighting);
+
+/// A surface that the ground truth draws: its mesh and how the frame shows it.
+struct TruthSurface {
+    SurfaceMesh mesh;
+    SurfaceDraw draw;
+};
+
+/// Intersects the ray with every triangle of every surface. Nearest first.
+std::vector<Fragment> intersect(const Ray& ray, const std::vector<TruthSurface>& surfaces,
+                                const Lighting& lighting);
+
+}  // namespace isoglass::test

@@ -1,0 +1,94 @@
+#include "gl/program.h"
+
+#include "base/error.h"
+#include "render/uniforms.h"
+#include "render_fixture.h"
+
+#include <cstddef>
+
+namespace isoglass::test {
+namespace {
+
+using ProgramTest = GlTest;
+
+const gl::ShaderSource kVertex{"#version 450 core\nvoid main() { gl_Position = vec4(0); }\n", {"any.vert"}};
+
+TEST_F(ProgramTest, ACompileErrorNamesTheFilesAndTheLog) {
+    const gl::ShaderSource wrong{"#version 450 core\n#line 7 1\nvoid main() { nonsense; }\n",
+                                 {"main.frag", "lib/a.glsl"}};
+    try {
+        gl::Program("test", kVertex, wrong);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.where(), "0 = main.frag, 1 = lib/a.glsl");
+        EXPECT_NE(std::string(error.what()).find("nonsense"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("7"), std::string::npos) << error.what();
+    }
+    context_.debugLog().take();
+}
+
+TEST_F(ProgramTest, ALinkErrorNamesTheProgram) {
+    const gl::ShaderSource wrong{
+        "#version 450 core\nin vec3 missing;\nlayout(location = 0) out vec4 c;\nvoid main() { c = "
+        "missing.xyzz; }\n",
+        {"main.frag"}};
+    try {
+        gl::Program("test program", kVertex, wrong);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.where(), "test program");
+    }
+    context_.debugLog().take();
+}
+
+TEST_F(ProgramTest, ReflectionTellsSamplersAndOutputs) {
+    const gl::Program program("full_screen.vert", "resolve_composed.frag");
+    EXPECT_EQ(program.samplerUnits(), (std::vector<int>{0, 2, 3}));
+    EXPECT_EQ(program.outputLocations(), (std::vector<int>{0, 1}));
+}
+
+/// What the driver says of a member of a uniform block.
+GLint memberProperty(const gl::Program& program, const char* member, GLenum what) {
+    const GLuint index = glGetProgramResourceIndex(program.name(), GL_UNIFORM, member);
+    EXPECT_NE(index, GL_INVALID_INDEX) << member;
+    GLint value = -1;
+    glGetProgramResourceiv(program.name(), GL_UNIFORM, index, 1, &what, 1, nullptr, &value);
+    return value;
+}
+
+void expectOffset(const gl::Program& program, const char* member, std::size_t offset) {
+    EXPECT_EQ(memberProperty(program, member, GL_OFFSET), static_cast<GLint>(offset)) << member;
+}
+
+void expectBlock(const gl::Program& program, const char* block, unsigned binding, std::size_t size) {
+    const GLuint index = glGetProgramResourceIndex(program.name(), GL_UNIFORM_BLOCK, block);
+    ASSERT_NE(index, GL_INVALID_INDEX) << block;
+    const GLenum what[] = {GL_BUFFER_BINDING, GL_BUFFER_DATA_SIZE};
+    GLint values[2] = {-1, -1};
+    glGetProgramResourceiv(program.name(), GL_UNIFORM_BLOCK, index, 2, what, 2, nullptr, values);
+    EXPECT_EQ(values[0], static_cast<GLint>(binding)) << block;
+    EXPECT_EQ(values[1], static_cast<GLint>(size)) << block;
+}
+
+TEST_F(ProgramTest, UniformLayoutsAreThoseOfTheMirrors) {
+    const gl::Program surface("surface.vert", "emission.frag");
+    expectBlock(surface, "Draw", DrawUniforms::kBinding, sizeof(DrawUniforms));
+    expectOffset(surface, "clipFromMesh", offsetof(DrawUniforms, clipFromMesh));
+    expectOffset(surface, "eyeFromMesh", offsetof(DrawUniforms, eyeFromMesh));
+    expectOffset(surface, "normalFromMesh", offsetof(DrawUniforms, normalFromMesh));
+    expectOffset(surface, "colorOpacity", offsetof(DrawUniforms, colorOpacity));
+    EXPECT_EQ(memberProperty(surface, "normalFromMesh", GL_MATRIX_STRIDE),
+              static_cast<GLint>(sizeof(DrawUniforms::normalFromMesh[0])));
+
+    expectBlock(surface, "Frame", FrameUniforms::kBinding, sizeof(FrameUniforms));
+    expectOffset(surface, "ambient", offsetof(FrameUniforms, ambient));
+    expectOffset(surface, "diffuse", offsetof(FrameUniforms, diffuse));
+    expectOffset(surface, "specular", offsetof(FrameUniforms, specular));
+    expectOffset(surface, "shininess", offsetof(FrameUniforms, shininess));
+    const gl::Program resolve("full_screen.vert", "resolve_opaque.frag");
+    expectOffset(resolve, "exposure", offsetof(FrameUniforms, exposure));
+    expectOffset(resolve, "supersample", offsetof(FrameUniforms, supersample));
+}
+
+}  // namespace
+}  // namespace isoglass::test
