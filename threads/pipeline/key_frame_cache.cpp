@@ -1,0 +1,160 @@
+#include "pipeline/key_frame_cache.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <string>
+
+namespace isoglass {
+
+namespace {
+
+std::string megabytes(std::size_t bytes) {
+    return std::to_string((bytes + 999'999) / 1'000'000) + " MB";
+}
+
+std::size_t largestFrame(const SeriesFile& series) {
+    std::size_t largest = 0;
+    for (const FrameRecord& frame : series.description().frames) {
+        largest = std::max<std::size_t>(largest, frame.bytes);
+    }
+    return largest;
+}
+
+}  // namespace
+
+KeyFrameCache::KeyFrameCache(std::vector<std::shared_ptr<const SeriesFile>> series, std::size_t budgetBytes)
+    : series_(std::move(series)), budget_(budgetBytes) {
+    for (const auto& file : series_) {
+        const std::size_t needed = 2 * largestFrame(*file);
+        if (needed > budget_) {
+            throw Error("the memory budget of " + megabytes(budget_) + " cannot hold two key frames",
+                        file->path().string(), "give at least --memory " + megabytes(needed));
+        }
+    }
+    thread_ = std::jthread([this](std::stop_token stop) { prefetch(stop); });
+}
+
+KeyFrameCache::~KeyFrameCache() = default;
+
+std::shared_ptr<const KeyFrame> KeyFrameCache::get(FrameKey key) {
+    Lock lock(mutex_);
+    ++waiting_;
+    changed_.wait(lock, [&] { return !reading_.contains(key); });
+    const auto found = frames_.find(key);
+    if (found != frames_.end()) {
+        --waiting_;
+        return found->second;
+    }
+    // A frame being read ahead may take the room; once it is there it can be dropped again.
+    changed_.wait(lock, [&] { return makeRoom(expectedBytes(key), {}) || reading_.empty(); });
+    std::shared_ptr<const KeyFrame> frame;
+    try {
+        if (!makeRoom(expectedBytes(key), {})) {
+            throw Error("the memory budget of " + megabytes(budget_) + " is used up by frames in use",
+                        series_[key.series]->path().string(), "give a larger --memory");
+        }
+        frame = read(lock, key);
+    } catch (...) {
+        --waiting_;
+        throw;
+    }
+    --waiting_;
+    changed_.notify_all();
+    return frame;
+}
+
+void KeyFrameCache::want(std::vector<FrameKey> keys) {
+    const std::scoped_lock lock(mutex_);
+    wanted_ = std::move(keys);
+    changed_.notify_all();
+}
+
+std::size_t KeyFrameCache::bytes() const {
+    const std::scoped_lock lock(mutex_);
+    return cachedBytes_ + readingBytes_;
+}
+
+bool KeyFrameCache::holds(FrameKey key) const {
+    const std::scoped_lock lock(mutex_);
+    return frames_.contains(key);
+}
+
+std::size_t KeyFrameCache::expectedBytes(FrameKey key) const {
+    return series_[key.series]->description().frames[key.frame].bytes;
+}
+
+/// Drops frames that nobody holds until `bytes` more fit: first those that nobody wants, then the ones
+/// wanted last, but none of `keep`. False where that is not enough. The mutex is held.
+bool KeyFrameCache::makeRoom(std::size_t bytes, const std::set<FrameKey>& keep) {
+    const auto fits = [&] { return cachedBytes_ + readingBytes_ + bytes <= budget_; };
+    const auto rank = [&](FrameKey key) {
+        return std::find(wanted_.begin(), wanted_.end(), key) - wanted_.begin();
+    };
+    while (!fits()) {
+        auto victim = frames_.end();
+        for (auto it = frames_.begin(); it != frames_.end(); ++it) {
+            const bool free = it->second.use_count() == 1 && !keep.contains(it->first);
+            if (free && (victim == frames_.end() || rank(it->first) > rank(victim->first))) victim = it;
+        }
+        if (victim == frames_.end()) return false;
+        cachedBytes_ -= expectedBytes(victim->first);
+        frames_.erase(victim);
+    }
+    return true;
+}
+
+/// Reads with the mutex released; room must have been made.
+std::shared_ptr<const KeyFrame> KeyFrameCache::read(Lock& lock, FrameKey key) {
+    const std::size_t bytes = expectedBytes(key);
+    reading_.insert(key);
+    readingBytes_ += bytes;
+    std::shared_ptr<const KeyFrame> frame;
+    std::exception_ptr failure;
+    lock.unlock();
+    try {
+        frame = series_[key.series]->read(key.frame);
+    } catch (...) {
+        failure = std::current_exception();
+    }
+    lock.lock();
+    reading_.erase(key);
+    readingBytes_ -= bytes;
+    changed_.notify_all();
+    if (failure) std::rethrow_exception(failure);
+    cachedBytes_ += bytes;
+    frames_[key] = frame;
+    return frame;
+}
+
+/// The first wanted frame that is missing and fits without dropping one that is wanted before it. The
+/// mutex is held.
+std::optional<FrameKey> KeyFrameCache::nextToPrefetch() {
+    if (waiting_ > 0) return std::nullopt;
+    std::set<FrameKey> keep;
+    for (const FrameKey key : wanted_) {
+        const bool there = frames_.contains(key) || reading_.contains(key) || failed_.contains(key);
+        if (!there) return makeRoom(expectedBytes(key), keep) ? std::optional(key) : std::nullopt;
+        keep.insert(key);
+    }
+    return std::nullopt;
+}
+
+void KeyFrameCache::prefetch(std::stop_token stop) {
+    Lock lock(mutex_);
+    while (!stop.stop_requested()) {
+        const std::optional<FrameKey> key = nextToPrefetch();
+        if (!key) {
+            changed_.wait(lock, stop, [this] { return nextToPrefetch().has_value(); });
+            continue;
+        }
+        try {
+            read(lock, *key);
+        } catch (const std::exception&) {
+            // `get` reads it again and reports to the one who needs it.
+            failed_.insert(*key);
+        }
+    }
+}
+
+}  // namespace isoglass

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "volume/key_frame.h"
+#include "volume/series_file.h"
+
+#include <condition_variable>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <thread>
+#include <vector>
+
+namespace isoglass {
+
+/// Names a key frame among several series.
+struct FrameKey {
+    std::size_t series = 0;
+    std::size_t frame = 0;
+
+    friend auto operator<=>(const FrameKey&, const FrameKey&) = default;
+};
+
+/// Key frames of all series of a scene, read ahead by a thread of its own, under a hard memory budget.
+///
+/// Frames count against the budget while they are cached, being read, or held by a caller. Any thread
+/// may call any member; one thread at a time may hold frames across calls of `get`.
+class KeyFrameCache {
+  public:
+    /// Throws Error where the budget cannot hold two key frames of every series: one moment between
+    /// key frames needs two.
+    KeyFrameCache(std::vector<std::shared_ptr<const SeriesFile>> series, std::size_t budgetBytes);
+    ~KeyFrameCache();
+
+    /// The key frame; waits for the disk where it is not there yet. Hand back (drop) frames that are no
+    /// longer needed before asking for others. Throws Error where it cannot be read.
+    std::shared_ptr<const KeyFrame> get(FrameKey key);
+
+    /// Says which frames will be needed, the next one first. They are read while nobody waits, as far as
+    /// the budget reaches; a frame that cannot be read is left for `get` to report.
+    void want(std::vector<FrameKey> keys);
+
+    /// Bytes of all frames that are cached, held or being read; never above the budget.
+    std::size_t bytes() const;
+    std::size_t budgetBytes() const { return budget_; }
+    /// Whether the frame is in memory, for tests and progress.
+    bool holds(FrameKey key) const;
+
+  private:
+    using Lock = std::unique_lock<std::mutex>;
+
+    std::size_t expectedBytes(FrameKey key) const;
+    bool makeRoom(std::size_t bytes, const std::set<FrameKey>& keep);
+    std::shared_ptr<const KeyFrame> read(Lock& lock, FrameKey key);
+    std::optional<FrameKey> nextToPrefetch();
+    void prefetch(std::stop_token stop);
+
+    const std::vector<std::shared_ptr<const SeriesFile>> series_;
+    const std::size_t budget_;
+
+    mutable std::mutex mutex_;
+    std::condition_variable_any changed_;
+    std::map<FrameKey, std::shared_ptr<const KeyFrame>> frames_;
+    std::set<FrameKey> reading_;
+    std::set<FrameKey> failed_;
+    std::vector<FrameKey> wanted_;
+    std::size_t cachedBytes_ = 0;
+    std::size_t readingBytes_ = 0;
+    int waiting_ = 0;  ///< callers of `get` that need the disk; prefetching steps back for them
+
+    std::jthread thread_;  ///< last member: it uses all the others
+};
+
+}  // namespace isoglass

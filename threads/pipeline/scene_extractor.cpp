@@ -1,0 +1,102 @@
+#include "pipeline/scene_extractor.h"
+
+#include "base/error.h"
+#include "volume/calendar.h"
+
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace isoglass {
+
+namespace {
+
+/// Steps into which what is left of the timeline is cut to find the key frames ahead.
+constexpr int kLookAheadSteps = 64;
+
+double axisTime(const SceneTime& time, const ClockMap& clock, const TimeAxis& axis) {
+    const double seconds = std::holds_alternative<double>(time)
+                               ? std::get<double>(time)
+                               : axisTimeFromDate(axis, std::get<std::string>(time)) * secondsPerUnit(axis);
+    return axisTimeFromSeconds(axis, clock.offset + clock.scale * seconds);
+}
+
+PlayedSeries play(const Volume& volume, const Timeline& timeline) {
+    PlayedSeries played;
+    played.file = std::make_shared<SeriesFile>(volume.series);
+    const SeriesDescription& series = played.file->description();
+    if (!volume.grid.empty() && volume.grid != series.name) {
+        throw Error("volume '" + volume.name + "' asks for grid '" + volume.grid +
+                        "', but the series holds '" + series.name + "'",
+                    volume.series.string(), "name that grid, or leave \"grid\" out");
+    }
+    played.from = axisTime(timeline.from, volume.time, series.time);
+    played.to = axisTime(timeline.to, volume.time, series.time);
+    return played;
+}
+
+}  // namespace
+
+SceneExtractor::SceneExtractor(const Scene& scene, Options options) : scene_(scene), options_(options) {
+    std::vector<std::shared_ptr<const SeriesFile>> files;
+    for (const Volume& volume : scene_.volumes) {
+        series_.push_back(play(volume, scene_.time));
+        files.push_back(series_.back().file);
+    }
+    cache_ = std::make_unique<KeyFrameCache>(std::move(files), options_.memoryBytes);
+}
+
+TimedField SceneExtractor::fieldAt(std::size_t volume, const TimeSample& sample) {
+    TimedField field;
+    field.a = cache_->get({volume, sample.frameA});
+    if (sample.fraction > 0) field.b = cache_->get({volume, sample.frameB});
+    field.fraction = static_cast<float>(sample.fraction);
+    return field;
+}
+
+std::vector<FrameKey> SceneExtractor::framesAhead(double position) const {
+    std::vector<FrameKey> keys;
+    const auto add = [&keys](FrameKey key) {
+        if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+    };
+    for (int step = 0; step <= kLookAheadSteps; ++step) {
+        const double at = position + (1 - position) * step / kLookAheadSteps;
+        for (std::size_t volume = 0; volume < series_.size(); ++volume) {
+            const TimeSample sample =
+                locate(series_[volume].file->description().time, series_[volume].timeAt(at));
+            add({volume, sample.frameA});
+            add({volume, sample.frameB});
+        }
+    }
+    return keys;
+}
+
+SceneMeshes SceneExtractor::extract(double position, const CameraPose& camera, int imageHeight) {
+    cache_->want(framesAhead(position));
+    SceneMeshes result;
+    for (std::size_t v = 0; v < scene_.volumes.size(); ++v) {
+        const Volume& volume = scene_.volumes[v];
+        const SeriesDescription& series = series_[v].file->description();
+        const double time = series_[v].timeAt(position);
+        result.axisTimes.push_back(time);
+        result.times.push_back(locate(series.time, time));
+        const TimedField field = fieldAt(v, result.times.back());
+        View view;
+        view.eye = glm::dvec3(glm::inverse(worldFromSeries(volume.place)) * glm::dvec4(camera.eye, 1.0));
+        view.pixelsPerUnit = imageHeight / (2 * std::tan(scene_.camera.fovDegrees * M_PI / 360));
+        for (std::size_t s = 0; s < volume.surfaces.size(); ++s) {
+            const Surface& surface = volume.surfaces[s];
+            Extraction extraction = extractSurface(series.lattice, field,
+                                                   {.iso = static_cast<float>(surface.iso),
+                                                    .insideIsBelow = surface.inside == Inside::below,
+                                                    .view = view,
+                                                    .threads = options_.threads});
+            auto mesh = std::make_shared<const SurfaceMesh>(std::move(extraction.mesh));
+            result.surfaces.push_back({v, s, std::move(mesh), extraction.stats});
+        }
+    }
+    return result;
+}
+
+}  // namespace isoglass

@@ -1,0 +1,73 @@
+#pragma once
+
+#include "mesh/surface_mesh.h"
+#include "pipeline/key_frame_cache.h"
+#include "scene/scene.h"
+#include "surface/extract.h"
+#include "volume/time_axis.h"
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace isoglass {
+
+/// One surface of the scene at one moment.
+struct ExtractedSurface {
+    std::size_t volume = 0;   ///< index into `Scene::volumes`
+    std::size_t surface = 0;  ///< index into its `surfaces`
+    std::shared_ptr<const SurfaceMesh> mesh;
+    ExtractStats stats;
+};
+
+/// All surfaces of the scene at one moment, in the order of the scene. Always whole.
+struct SceneMeshes {
+    std::vector<ExtractedSurface> surfaces;
+    std::vector<TimeSample> times;  ///< one a volume
+    std::vector<double> axisTimes;  ///< one a volume, in its series' own units
+};
+
+/// What is known of a volume's series and of the time that it plays.
+struct PlayedSeries {
+    std::shared_ptr<const SeriesFile> file;
+    double from = 0;  ///< in the series' own units
+    double to = 0;
+
+    double timeAt(double position) const { return from + position * (to - from); }
+};
+
+/// Turns moments of a scene into meshes: reads, interpolates in time, extracts.
+///
+/// Use `extract` from one thread at a time, the extraction thread; the rest from any.
+class SceneExtractor {
+  public:
+    struct Options {
+        std::size_t memoryBytes = std::size_t{2} << 30;  ///< budget for key frames
+        int threads = 0;                                 ///< for the inner loops; 0 takes all cores
+    };
+
+    /// Opens every series of the scene. Throws Error where one cannot be read, is not the grid that the
+    /// scene names, or where the scene's times mean nothing to it.
+    SceneExtractor(const Scene& scene, Options options);
+
+    /// All surfaces at `position` (0 is the timeline's `from`, 1 its `to`), for a picture seen from
+    /// `camera` of `imageHeight` pixels. Key frames ahead are read while this works.
+    SceneMeshes extract(double position, const CameraPose& camera, int imageHeight);
+
+    /// One a volume, in the order of the scene.
+    const std::vector<PlayedSeries>& series() const { return series_; }
+    const KeyFrameCache& cache() const { return *cache_; }
+
+  private:
+    TimedField fieldAt(std::size_t volume, const TimeSample& sample);
+    std::vector<FrameKey> framesAhead(double position) const;
+
+    Scene scene_;
+    Options options_;
+    std::vector<PlayedSeries> series_;
+    std::unique_ptr<KeyFrameCache> cache_;
+};
+
+}  // namespace isoglass
