@@ -1,0 +1,170 @@
+#include "app/command_line.h"
+
+#include "app/commands.h"
+
+#include <CLI/CLI.hpp>
+
+#include <exception>
+#include <functional>
+#include <iostream>
+#include <map>
+
+namespace isoglass {
+
+namespace {
+
+constexpr int kFailure = 1;
+constexpr int kWrongUsage = 2;
+
+/// Splits "A<separator>B"; CLI11 turns the exception into a usage error that names the option.
+std::pair<std::string, std::string> splitPair(const std::string& text, char separator,
+                                              const std::string& form) {
+    const std::size_t place = text.find(separator);
+    if (place == std::string::npos) throw CLI::ValidationError("'" + text + "' does not read " + form);
+    return {text.substr(0, place), text.substr(place + 1)};
+}
+
+template <typename Number>
+Number number(const std::string& text, const std::string& form) {
+    Number value{};
+    if (!CLI::detail::lexical_cast(text, value))
+        throw CLI::ValidationError("'" + text + "' does not read " + form);
+    return value;
+}
+
+void addImport(CLI::App& app, std::function<void()>& run) {
+    auto command = std::make_shared<ImportCommand>();
+    CLI::App* verb =
+        app.add_subcommand("import", "Turn a foreign series into one of IsoGlass: NetCDF, or PVM files");
+    verb->add_option("INPUT", command->inputs, "One NetCDF file, or PVM files, one a key frame")->required();
+    verb->add_option("-o,--output", command->out, "The series to write (.vdb)")->required();
+    verb->add_option("--variable", command->options.variable,
+                     "The variable to read, where there are several");
+    verb->add_option("--times", command->options.times, "Times of the key frames, instead of the source's")
+        ->delimiter(',');
+    verb->add_option("--tolerance", command->sparsity.tolerance,
+                     "Largest change of a sample that may make the series sparser")
+        ->check(CLI::NonNegativeNumber);
+    verb->add_option_function<std::string>(
+        "--keep",
+        [command](const std::string& text) {
+            const auto [low, high] = splitPair(text, ':', "LO:HI");
+            command->sparsity.keep = ValueRange{number<float>(low, "LO:HI"), number<float>(high, "LO:HI")};
+            if (!(command->sparsity.keep->min <= command->sparsity.keep->max)) {
+                throw CLI::ValidationError("--keep: LO must not be above HI");
+            }
+        },
+        "Keep what surfaces with iso-values from LO to HI need, and no more");
+    verb->callback([command, &run] { run = [command] { runImport(*command); }; });
+}
+
+void addInfo(CLI::App& app, std::function<void()>& run) {
+    auto command = std::make_shared<InfoCommand>();
+    CLI::App* verb = app.add_subcommand("info", "Describe series: sizes, times, units, range, memory");
+    verb->add_option("SERIES", command->series, "Series of IsoGlass (.vdb)")->required();
+    verb->add_flag("--json", command->json, "Print JSON");
+    verb->callback([command, &run] { run = [command] { runInfo(*command); }; });
+}
+
+void addRender(CLI::App& app, const CommonOptions& common, std::function<void()>& run) {
+    auto command = std::make_shared<RenderCommand>();
+    CLI::App* verb = app.add_subcommand("render", "Render a scene to pictures or a video, without a window");
+    verb->add_option("SCENE", command->scene, "Scene file (.json)")->required();
+    verb->add_option("-o,--output", command->out, "still.png, frame-{frame}.png or film.mp4")->required();
+    verb->add_option_function<std::string>(
+        "--frames",
+        [command](const std::string& text) {
+            const auto [first, last] = splitPair(text, ':', "A:B");
+            command->frames =
+                FrameRange{number<std::int64_t>(first, "A:B"), number<std::int64_t>(last, "A:B")};
+        },
+        "Frames A to B, from 0, both included");
+    verb->add_option_function<std::string>(
+        "--size",
+        [command](const std::string& text) {
+            const auto [width, height] = splitPair(text, 'x', "WxH");
+            command->size = glm::ivec2(number<int>(width, "WxH"), number<int>(height, "WxH"));
+        },
+        "Size of the image, WxH pixels");
+    static const std::map<std::string, TransparencyMethod> kMethods = {
+        {"auto", TransparencyMethod::automatic},
+        {"3-pass", TransparencyMethod::threePass},
+        {"4-pass", TransparencyMethod::fourPass}};
+    verb->add_option_function<std::string>(
+            "--method", [command](const std::string& name) { command->method = kMethods.at(name); },
+            "Composition: auto, 3-pass or 4-pass")
+        ->check(CLI::IsMember({"auto", "3-pass", "4-pass"}));
+    verb->callback([command, &common, &run] { run = [command, &common] { runRender(*command, common); }; });
+}
+
+void addMesh(CLI::App& app, const CommonOptions& common, std::function<void()>& run) {
+    auto command = std::make_shared<MeshCommand>();
+    CLI::App* verb = app.add_subcommand("mesh", "Write one iso-surface at full resolution to a mesh file");
+    verb->add_option("SERIES", command->series, "Series of IsoGlass (.vdb)")->required();
+    verb->add_option("--iso", command->iso, "Iso-value")->required();
+    verb->add_option("--time", command->time, "Time in the series' own units; default: the first key frame");
+    verb->add_option("-o,--output", command->out, "Mesh file: .ply, .obj, .stl or .off")->required();
+    verb->add_flag("--below", command->insideIsBelow, "The inside is where the field is below the iso-value");
+    verb->callback([command, &common, &run] { run = [command, &common] { runMesh(*command, common); }; });
+}
+
+void addPlan(CLI::App& app, std::function<void()>& run) {
+    auto command = std::make_shared<PlanCommand>();
+    CLI::App* verb = app.add_subcommand("plan", "Say which passes a frame of the scene takes, and why");
+    verb->add_option("SCENE", command->scene, "Scene file (.json)")->required();
+    verb->add_flag("--json", command->json, "Print JSON");
+    verb->callback([command, &run] { run = [command] { runPlan(*command); }; });
+}
+
+void addBench(CLI::App& app, const CommonOptions& common, std::function<void()>& run) {
+    auto command = std::make_shared<BenchCommand>();
+    CLI::App* verb = app.add_subcommand("bench", "Run the benchmarks");
+    verb->add_option("NAME", command->names, "Run those whose name contains one of these");
+    verb->add_flag("--json", command->json, "Print a line of JSON for each");
+    verb->add_option("--repetitions", command->repetitions, "Runs that the median is taken of")
+        ->check(CLI::PositiveNumber);
+    verb->callback([command, &common, &run] { run = [command, &common] { runBench(*command, common); }; });
+}
+
+/// CLI11 escapes nothing and ends its messages without a full stop, so they fit one line.
+int reportUsage(const CLI::App& app, const CLI::ParseError& error) {
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
+    std::cerr << "isoglass: error: " << error.what() << " (command line)\n"
+              << "Run 'isoglass --help' or 'isoglass COMMAND --help'.\n";
+    return kWrongUsage;
+}
+
+}  // namespace
+
+int runCommandLine(int argc, char** argv) {
+    CLI::App app("IsoGlass plays 4D scalar time series as iso-surfaces.", "isoglass");
+    CommonOptions common;
+    std::function<void()> run;
+    app.set_version_flag("--version", "isoglass " ISOGLASS_VERSION);
+    app.require_subcommand(1);
+    app.fallthrough();
+    app.add_option("--threads", common.threads, "Threads for the inner loops; default: all cores")
+        ->check(CLI::Range(1, 1024));
+    app.add_option("--memory", common.memoryBytes, "Budget for key frames, such as 500MB or 2GB")
+        ->transform(CLI::AsSizeValue(false));
+    addImport(app, run);
+    addInfo(app, run);
+    addRender(app, common, run);
+    addMesh(app, common, run);
+    addPlan(app, run);
+    addBench(app, common, run);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return reportUsage(app, error);
+    }
+    try {
+        run();
+    } catch (const std::exception& error) {
+        std::cerr << "isoglass: error: " << error.what() << '\n';
+        return kFailure;
+    }
+    return 0;
+}
+
+}  // namespace isoglass

@@ -1,0 +1,73 @@
+#pragma once
+
+#include "pipeline/batch.h"
+#include "scene/scene.h"
+#include "volume/frame_source.h"
+#include "volume/series_file.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isoglass {
+
+// One function a command, called after the command line was parsed. Data goes to standard output, progress
+// and notes to standard error; failures are thrown.
+
+/// Options that every command takes.
+struct CommonOptions {
+    int threads = 0;                                 ///< 0 takes all cores
+    std::size_t memoryBytes = std::size_t{2} << 30;  ///< budget for key frames
+};
+
+struct ImportCommand {
+    std::vector<std::filesystem::path> inputs;
+    std::filesystem::path out;
+    ImportOptions options;
+    SparsityOptions sparsity;
+};
+void runImport(const ImportCommand& command);
+
+struct InfoCommand {
+    std::vector<std::filesystem::path> series;
+    bool json = false;
+};
+void runInfo(const InfoCommand& command);
+
+struct RenderCommand {
+    std::filesystem::path scene;
+    std::string out;  ///< a .png, a .png name with {frame}, or an .mp4
+    std::optional<FrameRange> frames;
+    std::optional<glm::ivec2> size;
+    std::optional<TransparencyMethod> method;
+};
+void runRender(const RenderCommand& command, const CommonOptions& common);
+
+struct MeshCommand {
+    std::filesystem::path series;
+    std::filesystem::path out;
+    double iso = 0;
+    std::optional<double> time;  ///< in the series' own units; the first key frame's where not given
+    bool insideIsBelow = false;
+};
+void runMesh(const MeshCommand& command, const CommonOptions& common);
+
+struct PlanCommand {
+    std::filesystem::path scene;
+    bool json = false;
+};
+void runPlan(const PlanCommand& command);
+
+struct BenchCommand {
+    std::vector<std::string> names;  ///< parts of names; empty runs all
+    bool json = false;
+    int repetitions = 9;
+};
+void runBench(const BenchCommand& command, const CommonOptions& common);
+
+}  // namespace isoglass
