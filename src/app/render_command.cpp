@@ -114,11 +114,12 @@ class Notes {
                     when);
         }
         for (const ExtractedSurface& surface : frame.meshes.surfaces) {
-            const std::string where = "/volumes/" + std::to_string(surface.volume) + "/surfaces/" +
-                                      std::to_string(surface.surface) + ": ";
-            const ValueRange range = surface.stats.range;
-            if (surface.mesh->empty()) sayOnce(where + "the surface is empty", rangeText(range) + when);
-            if (surface.stats.lostCells > 0) sayOnce(where + "the surface ends at missing samples", when);
+            const std::string volume = "/volumes/" + std::to_string(surface.volume);
+            if (surface.mesh->empty()) {
+                sayOnce(volume + "/surfaces/" + std::to_string(surface.surface) + ": the surface is empty",
+                        rangeText(surface.stats.range) + when);
+            }
+            if (surface.stats.lostCells > 0) sayOnce(volume + ": surfaces end where samples are missing", when);
         }
     }
 

@@ -88,10 +88,90 @@ void gatherKeyFrame(const KeyFrame& frame, const std::array<Runs, 3>& runs, Bric
     }
 }
 
-}  // namespace
+/// Where the 3^3 bricks around a gathered one keep their samples: rows of 8 along z. A constant brick
+/// lends the same row everywhere, so that it is read like any other.
+class NeighbourRows {
+  public:
+    /// False where one of them has missing samples. All must lie inside the domain.
+    bool find(const KeyFrame& frame, glm::ivec3 brick) {
+        for (int i = 0; i < 27; ++i) {
+            const glm::ivec3 neighbour = brick + glm::ivec3(i / 9, i / 3 % 3, i % 3) - 1;
+            const BrickView& view = frame.brick(frame.linear(neighbour));
+            if (view.missing || view.valid) return false;
+            if (!view.samples) constant_[i].fill(view.constant);
+            first_[i] = view.samples ? view.samples : constant_[i].data();
+            stride_[i] = view.samples ? kBrickSize : 0;
+        }
+        return true;
+    }
 
-void gatherBrick(const IndexSpace& space, const TimedField& field, glm::ivec3 brick, float sign,
-                 BrickField& scratch, BrickField& out) {
+    /// Row of the brick numbered `neighbour` (x slowest, z fastest, each 0 to 2).
+    const float* row(int neighbour, int x, int y) const {
+        return first_[neighbour] + stride_[neighbour] * (x * kBrickSize + y);
+    }
+
+  private:
+    std::array<const float*, 27> first_;
+    std::array<int, 27> stride_;
+    std::array<std::array<float, kBrickSize>, 27> constant_;
+};
+
+/// Calls `copy(row, neighbour, x, y)` for every gathered row along z, `neighbour` being the first of the
+/// three bricks that it runs through and x, y the place in them.
+template <typename Copy>
+void forEachRow(float* values, Copy copy) {
+    for (int i = 0; i < kFieldSize; ++i) {
+        const int x = i + kBrickSize - 1;
+        for (int j = 0; j < kFieldSize; ++j) {
+            const int y = j + kBrickSize - 1;
+            const int neighbour = (x / kBrickSize * 3 + y / kBrickSize) * 3;
+            copy(values + i * BrickField::kStrideX + j * BrickField::kStrideY, neighbour, x % kBrickSize,
+                 y % kBrickSize);
+        }
+    }
+}
+
+/// Evaluates one gathered row, `value(neighbour, z)` being the sample z of one of the three bricks along z.
+template <typename Value>
+void fillRow(float* out, Value value) {
+    out[0] = value(0, kBrickSize - 1);
+    for (int z = 0; z < kBrickSize; ++z) out[z + 1] = value(1, z);
+    out[kBrickSize + 1] = value(2, 0);
+    out[kBrickSize + 2] = value(2, 1);
+}
+
+/// The common case, without a look at single samples: all samples around the brick are there, and the
+/// gathered box does not wrap. False where that is not so.
+bool gatherInterior(const IndexSpace& space, const TimedField& field, glm::ivec3 brick, BrickField& out) {
+    for (int k = 0; k < 3; ++k) {
+        if (brick[k] == 0 || (brick[k] + 1) * kBrickSize + 1 >= space.stored[k]) return false;
+    }
+    NeighbourRows a;
+    if (!a.find(field.fraction == 1 ? *field.b : *field.a, brick)) return false;
+    out.complete = true;
+    if (field.fraction == 0 || field.fraction == 1) {
+        forEachRow(out.values.data(), [&](float* row, int first, int x, int y) {
+            const std::array rows = {a.row(first, x, y), a.row(first + 1, x, y), a.row(first + 2, x, y)};
+            fillRow(row, [&](int neighbour, int z) { return rows[neighbour][z]; });
+        });
+        return true;
+    }
+    NeighbourRows b;
+    if (!b.find(*field.b, brick)) return false;
+    const float s = field.fraction;
+    forEachRow(out.values.data(), [&](float* row, int first, int x, int y) {
+        const std::array rowsA = {a.row(first, x, y), a.row(first + 1, x, y), a.row(first + 2, x, y)};
+        const std::array rowsB = {b.row(first, x, y), b.row(first + 1, x, y), b.row(first + 2, x, y)};
+        fillRow(row, [&](int neighbour, int z) {
+            return rowsA[neighbour][z] + s * (rowsB[neighbour][z] - rowsA[neighbour][z]);
+        });
+    });
+    return true;
+}
+
+/// The general case: ends of the domain, periodic axes, missing samples.
+void gatherAnywhere(const IndexSpace& space, const TimedField& field, glm::ivec3 brick, BrickField& scratch,
+                    BrickField& out) {
     const std::array<Runs, 3> runs = {makeRuns(space, 0, brick.x), makeRuns(space, 1, brick.y),
                                       makeRuns(space, 2, brick.z)};
     gatherKeyFrame(field.fraction == 1 ? *field.b : *field.a, runs, out);
@@ -103,6 +183,13 @@ void gatherBrick(const IndexSpace& space, const TimedField& field, glm::ivec3 br
             out.values[i] += s * (scratch.values[i] - out.values[i]);
         }
     }
+}
+
+}  // namespace
+
+void gatherBrick(const IndexSpace& space, const TimedField& field, glm::ivec3 brick, float sign,
+                 BrickField& scratch, BrickField& out) {
+    if (!gatherInterior(space, field, brick, out)) gatherAnywhere(space, field, brick, scratch, out);
     if (sign < 0) {
         for (float& value : out.values) value = -value;
     }

@@ -197,9 +197,11 @@ constexpr int vertexSlot(int x, int y, int z) {
     return ((x * kCorners + y) * kCorners + z) * kEdgeKinds;
 }
 
+/// Notes the indices of the vertices of one row of `owner`, those at the z whose bits are set in `keep`.
 void expandRow(const BrickRecord& owner, int x, int y, int firstZ, std::uint32_t keep,
                VertexIndices& indices) {
     const int row = (x % kBrickSize) * kBrickSize + y % kBrickSize;
+    if (!(std::bit_cast<std::uint32_t>(owner.edges[row]) & keep * 0x01010101u)) return;
     std::uint32_t index = owner.firstVertex + owner.rowStart[row];
     for (int kind = 0; kind < kEdgeKinds; ++kind) {
         for (std::uint32_t edges = owner.edges[row][kind]; edges; edges &= edges - 1, ++index) {

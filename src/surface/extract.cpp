@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::size_t kBricksPerRangeTask = 4096;
 constexpr std::size_t kBricksPerTask = 32;
+/// What a smooth surface makes in that many bricks, about 8^2 a brick; more only costs a reallocation.
+constexpr std::size_t kVerticesPerTask = kBricksPerTask * kBrickSize * kBrickSize;
 constexpr ValueRange kEmptyRange{std::numeric_limits<float>::infinity(),
                                  -std::numeric_limits<float>::infinity()};
 
@@ -91,6 +93,8 @@ void makeRecords(const IndexSpace& space, const TimedField& field, const Extract
         BrickField gathered;
         BrickField scratch;
         VertexBuffer& buffer = buffers[begin / kBricksPerTask];
+        buffer.positions.reserve(kVerticesPerTask);
+        buffer.normals.reserve(kVerticesPerTask);
         for (std::size_t i = begin; i < end; ++i) {
             const glm::ivec3 brick = brickPosition(space, selection.bricks[i]);
             gatherBrick(space, field, brick, sign, scratch, gathered);
