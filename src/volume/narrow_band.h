@@ -1,8 +1,8 @@
 #pragma once
 
-#include <memory>
-
 #include "volume/key_frame.h"
+
+#include <memory>
 
 namespace isoglass {
 
@@ -11,6 +11,7 @@ namespace isoglass {
 ///
 /// Memory follows the sphere's area, not the domain, so it holds lattices that dense samples could not.
 /// The sphere and its band must lie inside the domain.
-std::shared_ptr<const KeyFrame> makeNarrowBandSphere(int samples, double radiusVoxels, double halfWidthVoxels);
+std::shared_ptr<const KeyFrame> makeNarrowBandSphere(int samples, double radiusVoxels,
+                                                     double halfWidthVoxels);
 
 }  // namespace isoglass

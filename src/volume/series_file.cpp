@@ -4,6 +4,7 @@
 #include "volume/checksum.h"
 #include "volume/series_grids.h"
 #include "volume/series_json.h"
+#include "volume/series_seal.h"
 #include "volume/sparse_grid.h"
 
 #include <openvdb/io/File.h>
@@ -39,6 +40,7 @@ SeriesFile::SeriesFile(const std::filesystem::path& path) : impl_(std::make_uniq
     openvdb::initialize();
     const std::string where = path.string();
     if (!std::filesystem::exists(path)) throw Error("there is no such file", where);
+    checkSeal(path);
     impl_->path = path;
     impl_->file = std::make_unique<openvdb::io::File>(where);
     std::string text;

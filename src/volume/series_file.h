@@ -17,8 +17,9 @@ namespace isoglass {
 /// Every member may be called from any thread; reads of samples are serialised.
 class SeriesFile {
   public:
-    /// Reads the description; no samples. Throws Error where the file cannot be read, is no OpenVDB
-    /// file, or holds no IsoGlass series.
+    /// Reads the description, after the whole file was read once to check that it is undamaged: about a
+    /// second a gigabyte. Throws Error where the file cannot be read, is no OpenVDB file, holds no
+    /// IsoGlass series, or is damaged.
     explicit SeriesFile(const std::filesystem::path& path);
     ~SeriesFile();
 
@@ -41,7 +42,7 @@ struct SparsityOptions {
     /// Keep only what surfaces with iso-values in [min, max] need: bricks that are on one side of the
     /// interval, with their neighbours in space and time, become one value. Those surfaces and their
     /// normals stay as in the source.
-    std::optional<ValueRange> keep;
+    std::optional<ValueRange> keep = {};
 };
 
 /// Called after each key frame with how many are done.

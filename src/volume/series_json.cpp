@@ -3,11 +3,11 @@
 #include "base/error.h"
 
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace isoglass {
 
@@ -127,6 +127,10 @@ SeriesDescription parse(std::string_view text) {
 }
 
 }  // namespace
+
+std::string asUtf8(const std::string& text) {
+    return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+}
 
 std::string toJson(const SeriesDescription& series) {
     Json json = {{"version", kVersion},

@@ -6,6 +6,7 @@
 #include "volume/series_file.h"
 #include "volume/series_grids.h"
 #include "volume/series_json.h"
+#include "volume/series_seal.h"
 #include "volume/sparse_grid.h"
 
 #include <openvdb/io/File.h>
@@ -58,7 +59,8 @@ openvdb::math::Transform::Ptr transformOf(const Lattice& lattice) {
 /// OpenVDB stamps every file with a random identifier; one made from the content keeps the same input
 /// giving the same bytes. Layout of the header: 8 bytes magic, 4 file version, 4 + 4 library version,
 /// 1 for the offsets, then the identifier as text.
-void stampIdentifier(const std::filesystem::path& path, const std::string& description) {
+void stampIdentifier(const std::filesystem::path& path, const std::filesystem::path& finalPath,
+                     const std::string& description) {
     constexpr std::streamoff kIdentifierOffset = 21;
     constexpr std::size_t kIdentifierLength = 36;
     std::string digits;
@@ -76,10 +78,11 @@ void stampIdentifier(const std::filesystem::path& path, const std::string& descr
     std::string found(kIdentifierLength, ' ');
     file.seekg(kIdentifierOffset).read(found.data(), kIdentifierLength);
     if (!file || found[8] != '-' || found[23] != '-')
-        throw Error("OpenVDB's file header is not as expected", path);
+        throw Error("OpenVDB could not write its header", finalPath.string(),
+                    "free some space, or choose another place");
     file.seekp(kIdentifierOffset).write(digits.data(), kIdentifierLength);
     file.close();
-    if (!file) throw Error("cannot write", path.string(), "free some space, or choose another place");
+    if (!file) throw Error("cannot write", finalPath.string(), "free some space, or choose another place");
 }
 
 /// OpenVDB does not look at its stream at the end, so a full disk goes unnoticed: read all back.
@@ -87,8 +90,8 @@ void checkWritten(const std::filesystem::path& path, const std::filesystem::path
     try {
         const SeriesFile file(path);
         for (std::size_t i = 0; i < file.description().frames.size(); ++i) file.read(i);
-    } catch (const Error&) {
-        throw Error("the file could not be written whole", finalPath.string(),
+    } catch (const Error& failure) {
+        throw Error(std::string("the file cannot be read back: ") + failure.what(), finalPath.string(),
                     "free some space on the disk, or choose another place");
     }
 }
@@ -125,6 +128,7 @@ SeriesDescription writeSeries(FrameSource& source, const std::filesystem::path& 
     openvdb::initialize();
     AtomicFile file(out);
     SeriesDescription series = source.description();
+    series.name = asUtf8(series.name);  // names the grids, and is read back from the JSON text
     const glm::ivec3 dims = series.lattice.dims();
     series.storedError = options.tolerance;
     series.keep = options.keep;
@@ -154,7 +158,8 @@ SeriesDescription writeSeries(FrameSource& source, const std::filesystem::path& 
     } catch (const openvdb::Exception& failure) {
         throw Error(std::string("cannot write: ") + failure.what(), out.string());
     }
-    stampIdentifier(file.temporaryPath(), description);
+    stampIdentifier(file.temporaryPath(), out, description);
+    sealFile(file.temporaryPath(), out);
     checkWritten(file.temporaryPath(), out);
     file.commit();
     return series;
