@@ -30,10 +30,11 @@ class Mailbox {
         return std::exchange(value_, std::nullopt);
     }
 
-    /// Waits for a value; nothing when `stop` was requested first.
+    /// Waits for a value; nothing once `stop` was requested, whatever lies in the box.
     std::optional<T> take(std::stop_token stop) {
         std::unique_lock lock(mutex_);
         arrived_.wait(lock, stop, [this] { return value_.has_value(); });
+        if (stop.stop_requested()) return std::nullopt;
         return std::exchange(value_, std::nullopt);
     }
 

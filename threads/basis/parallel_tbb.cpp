@@ -1,5 +1,6 @@
 #include "basis/parallel.h"
 
+#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -21,7 +22,8 @@ void parallelFor(std::size_t count, std::size_t grain, int threads,
     if (threads == 0) {
         loop();
     } else {
-        tbb::task_arena(threads).execute(loop);
+        // More threads than TBB runs would only make it print a warning.
+        tbb::task_arena(std::min(threads, tbb::info::default_concurrency())).execute(loop);
     }
 }
 

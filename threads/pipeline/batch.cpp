@@ -51,15 +51,15 @@ void renderFrames(const Scene& scene, SceneExtractor& extractor, FrameRange rang
     worker.request(requestFor(scene, range.first));
     try {
         while (std::optional<RenderedFrame> frame = images.pop()) {
-            if (!sink(std::move(*frame))) break;
+            if (sink(std::move(*frame))) continue;
+            images.close();
+            return;
         }
     } catch (...) {
         // The render thread may wait for room in the queue.
         images.close();
         throw;
     }
-    images.close();
-    loop.stop();
     loop.join();
 }
 

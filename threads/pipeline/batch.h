@@ -25,7 +25,8 @@ struct RenderedFrame {
 
 /// Renders frames of the scene's timeline in order, each with exactly its own meshes, so that the same
 /// scene gives the same images every time. Extraction, drawing and `sink` overlap on threads of their
-/// own; `sink` runs on the calling thread and returns false to end early. Rethrows what failed.
+/// own; `sink` runs on the calling thread and returns false to end early. Rethrows what failed, after all
+/// frames before it went to `sink`; after an early end what fails further ahead is nobody's concern.
 void renderFrames(const Scene& scene, SceneExtractor& extractor, FrameRange range,
                   const std::function<bool(RenderedFrame)>& sink);
 

@@ -9,8 +9,10 @@ namespace isoglass {
 
 namespace {
 
-std::string megabytes(std::size_t bytes) {
-    return std::to_string((bytes + 999'999) / 1'000'000) + " MB";
+/// As `--memory` takes it, rounded up.
+std::string sizeText(std::size_t bytes) {
+    if (bytes < 10'000'000) return std::to_string((bytes + 999) / 1000) + "kB";
+    return std::to_string((bytes + 999'999) / 1'000'000) + "MB";
 }
 
 std::size_t largestFrame(const SeriesFile& series) {
@@ -23,13 +25,28 @@ std::size_t largestFrame(const SeriesFile& series) {
 
 }  // namespace
 
+/// A caller of `get`, while it is there. The mutex is held at both ends.
+class KeyFrameCache::Waiting {
+  public:
+    explicit Waiting(KeyFrameCache& cache) : cache_(cache) { ++cache_.waiting_; }
+    ~Waiting() {
+        --cache_.waiting_;
+        cache_.changed_.notify_all();
+    }
+    Waiting(const Waiting&) = delete;
+    Waiting& operator=(const Waiting&) = delete;
+
+  private:
+    KeyFrameCache& cache_;
+};
+
 KeyFrameCache::KeyFrameCache(std::vector<std::shared_ptr<const SeriesFile>> series, std::size_t budgetBytes)
     : series_(std::move(series)), budget_(budgetBytes) {
     for (const auto& file : series_) {
         const std::size_t needed = 2 * largestFrame(*file);
         if (needed > budget_) {
-            throw Error("the memory budget of " + megabytes(budget_) + " cannot hold two key frames",
-                        file->path().string(), "give at least --memory " + megabytes(needed));
+            throw Error("the memory budget of " + sizeText(budget_) + " cannot hold two key frames",
+                        file->path().string(), "give at least --memory " + sizeText(needed));
         }
     }
     thread_ = std::jthread([this](std::stop_token stop) { prefetch(stop); });
@@ -39,29 +56,26 @@ KeyFrameCache::~KeyFrameCache() = default;
 
 std::shared_ptr<const KeyFrame> KeyFrameCache::get(FrameKey key) {
     Lock lock(mutex_);
-    ++waiting_;
-    changed_.wait(lock, [&] { return !reading_.contains(key); });
-    const auto found = frames_.find(key);
-    if (found != frames_.end()) {
-        --waiting_;
-        return found->second;
-    }
-    // A frame being read ahead may take the room; once it is there it can be dropped again.
-    changed_.wait(lock, [&] { return makeRoom(expectedBytes(key), {}) || reading_.empty(); });
+    const Waiting waiting(*this);
     std::shared_ptr<const KeyFrame> frame;
-    try {
-        if (!makeRoom(expectedBytes(key), {})) {
-            throw Error("the memory budget of " + megabytes(budget_) + " is used up by frames in use",
-                        series_[key.series]->path().string(), "give a larger --memory");
+    bool room = false;
+    // What is being read may be this frame, or may take its room until it is there and can be dropped.
+    changed_.wait(lock, [&] {
+        if (reading_.contains(key)) return false;
+        const auto found = frames_.find(key);
+        if (found != frames_.end()) {
+            frame = found->second;
+            return true;
         }
-        frame = read(lock, key);
-    } catch (...) {
-        --waiting_;
-        throw;
+        room = makeRoom(expectedBytes(key), {});
+        return room || reading_.empty();
+    });
+    if (frame) return frame;
+    if (!room) {
+        throw Error("the memory budget of " + sizeText(budget_) + " is used up by frames in use",
+                    series_[key.series]->path().string(), "give a larger --memory");
     }
-    --waiting_;
-    changed_.notify_all();
-    return frame;
+    return read(lock, key);
 }
 
 void KeyFrameCache::want(std::vector<FrameKey> keys) {

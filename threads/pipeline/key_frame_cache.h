@@ -50,6 +50,7 @@ class KeyFrameCache {
 
   private:
     using Lock = std::unique_lock<std::mutex>;
+    class Waiting;
 
     std::size_t expectedBytes(FrameKey key) const;
     bool makeRoom(std::size_t bytes, const std::set<FrameKey>& keep);
