@@ -8,6 +8,8 @@
 #include <functional>
 #include <iostream>
 #include <map>
+#include <string>
+#include <vector>
 
 namespace isoglass {
 
@@ -129,7 +131,11 @@ void addBench(CLI::App& app, const CommonOptions& common, std::function<void()>&
 /// CLI11 escapes nothing and ends its messages without a full stop, so they fit one line.
 int reportUsage(const CLI::App& app, const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
-    std::cerr << "isoglass: error: " << error.what() << " (command line)\n"
+    // CLI11 misses the command before it looks at what stands there instead.
+    const std::vector<std::string> rest = app.remaining();
+    const bool unknownCommand = app.get_subcommands().empty() && !rest.empty();
+    const std::string what = unknownCommand ? "there is no command '" + rest.front() + "'" : error.what();
+    std::cerr << "isoglass: error: " << what << " (command line)\n"
               << "Run 'isoglass --help' or 'isoglass COMMAND --help'.\n";
     return kWrongUsage;
 }

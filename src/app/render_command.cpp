@@ -119,7 +119,8 @@ class Notes {
                 sayOnce(volume + "/surfaces/" + std::to_string(surface.surface) + ": the surface is empty",
                         rangeText(surface.stats.range) + when);
             }
-            if (surface.stats.lostCells > 0) sayOnce(volume + ": surfaces end where samples are missing", when);
+            if (surface.stats.lostCells > 0)
+                sayOnce(volume + ": surfaces end where samples are missing", when);
         }
     }
 

@@ -30,11 +30,13 @@ std::vector<std::string> encoderArguments(const std::string& file, glm::ivec2 si
     rate.precision(17);
     rate << fps;
     // H.264 with halved chroma wants even sides: an odd side gets one more line.
+    // Without -xerror ffmpeg reports success for a file that the disk did not take whole.
     return {"ffmpeg",
             "-hide_banner",
             "-loglevel",
             "error",
             "-nostdin",
+            "-xerror",
             "-y",
             "-f",
             "rawvideo",
@@ -96,10 +98,13 @@ pid_t start(const std::vector<std::string>& arguments, int input, const std::str
 
 }  // namespace
 
+VideoWriter::Log::~Log() {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+}
+
 VideoWriter::VideoWriter(const std::filesystem::path& file, glm::ivec2 size, double fps)
-    : file_(file), target_(file) {
-    log_ = target_.temporaryPath();
-    log_ += ".log";
+    : file_(file), target_(file), log_{target_.temporaryPath().string() + ".log"} {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw Error(std::strerror(errno), file_.string());
     pipe_ = ends[1];
@@ -107,7 +112,7 @@ VideoWriter::VideoWriter(const std::filesystem::path& file, glm::ivec2 size, dou
     ::signal(SIGPIPE, SIG_IGN);
     try {
         process_ =
-            start(encoderArguments(target_.temporaryPath().string(), size, fps), ends[0], log_.string());
+            start(encoderArguments(target_.temporaryPath().string(), size, fps), ends[0], log_.path.string());
     } catch (...) {
         ::close(ends[0]);
         ::close(ends[1]);
@@ -119,8 +124,6 @@ VideoWriter::VideoWriter(const std::filesystem::path& file, glm::ivec2 size, dou
 VideoWriter::~VideoWriter() {
     if (process_ > 0) ::kill(process_, SIGTERM);
     waitForEnd();
-    std::error_code ignored;
-    std::filesystem::remove(log_, ignored);
 }
 
 void VideoWriter::add(const Image& image) {
@@ -142,7 +145,7 @@ void VideoWriter::finish() {
 
 void VideoWriter::fail() {
     waitForEnd();
-    std::ifstream log(log_);
+    std::ifstream log(log_.path);
     std::ostringstream words;
     words << log.rdbuf();
     std::string text = words.str();

@@ -30,12 +30,18 @@ class VideoWriter {
     void finish();
 
   private:
+    /// What ffmpeg says; removed at the end.
+    struct Log {
+        std::filesystem::path path;
+        ~Log();
+    };
+
     [[noreturn]] void fail();
     int waitForEnd();
 
     std::filesystem::path file_;
     AtomicFile target_;
-    std::filesystem::path log_;  ///< what ffmpeg says
+    Log log_;
     pid_t process_ = -1;
     int pipe_ = -1;
 };

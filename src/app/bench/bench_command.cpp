@@ -1,12 +1,14 @@
 #include "app/bench/benches.h"
 #include "app/commands.h"
 #include "app/text.h"
+#include "base/error.h"
 
 #include <benchmark/benchmark.h>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
 #include <iostream>
+#include <sstream>
 #include <thread>
 
 namespace isoglass {
@@ -77,15 +79,23 @@ std::string filterFor(const std::vector<std::string>& names) {
     return filter.empty() ? "all" : filter;
 }
 
+std::string nameList(const std::vector<std::string>& names) {
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+    return list;
+}
+
 }  // namespace
 
 void runBench(const BenchCommand& command, const CommonOptions& common) {
     registerExtraction(common.threads, command.repetitions);
     registerPasses(command.repetitions);
     Reporter reporter(command.json);
+    std::ostringstream libraryErrors;
+    reporter.SetErrorStream(&libraryErrors);
     const std::size_t ran = benchmark::RunSpecifiedBenchmarks(&reporter, filterFor(command.names));
     benchmark::ClearRegisteredBenchmarks();
-    if (ran == 0) throw std::runtime_error("no benchmark has such a name");
+    if (ran == 0) throw Error("no benchmark has such a name", nameList(command.names));
 }
 
 }  // namespace isoglass

@@ -1,0 +1,79 @@
+#include "app/app_test.h"
+
+#include <cstring>
+#include <regex>
+
+namespace isoglass::test {
+namespace {
+
+class Mesh : public AppTest {
+  protected:
+    void SetUp() override { importOcean(); }
+};
+
+/// The number before `word` in a text such as "5 vertices, 6 triangles".
+std::size_t numberBefore(const std::string& text, const std::string& word) {
+    std::smatch match;
+    return std::regex_search(text, match, std::regex("([0-9]+) " + word)) ? std::stoul(match[1]) : 0;
+}
+
+TEST_F(Mesh, WritesEveryFormat) {
+    std::size_t vertices = 0, triangles = 0;
+    for (const std::string extension : {"ply", "obj", "stl", "off"}) {
+        const std::string name = "mesh." + extension;
+        const RunResult result = run({"mesh", "ocean.vdb", "--iso", "15", "-o", name});
+        EXPECT_TRUE(contains(result.out, name + ": ")) << result.out;
+        vertices = numberBefore(result.out, "vertices");
+        triangles = numberBefore(result.out, "triangles");
+        EXPECT_GT(vertices, 1000u);
+        EXPECT_GT(triangles, 1000u);
+    }
+    EXPECT_TRUE(bytesOf("mesh.ply").starts_with("ply\n"));
+    EXPECT_TRUE(contains(bytesOf("mesh.ply"), "element vertex " + std::to_string(vertices)));
+    EXPECT_TRUE(contains(bytesOf("mesh.ply"), "element face " + std::to_string(triangles)));
+    EXPECT_TRUE(contains(bytesOf("mesh.obj"), "\nf "));
+    // Binary STL: 80 bytes of header, the count, 50 bytes a triangle.
+    const std::string stl = bytesOf("mesh.stl");
+    ASSERT_EQ(stl.size(), 84 + 50 * triangles);
+    std::uint32_t count = 0;
+    std::memcpy(&count, stl.data() + 80, sizeof count);
+    EXPECT_EQ(count, triangles);
+    EXPECT_TRUE(contains(bytesOf("mesh.off").substr(0, 8), "OFF"));
+}
+
+TEST_F(Mesh, DoesNotDependOnThreads) {
+    run({"mesh", "ocean.vdb", "--iso", "15", "-o", "one.ply", "--threads", "1"});
+    run({"mesh", "ocean.vdb", "--iso", "15", "-o", "two.ply", "--threads", "2"});
+    EXPECT_EQ(bytesOf("one.ply"), bytesOf("two.ply"));
+}
+
+TEST_F(Mesh, TimeChoosesTheMoment) {
+    // Hours of the climatology, between its first and its second month.
+    run({"mesh", "ocean.vdb", "--iso", "15", "-o", "first.ply"});
+    run({"mesh", "ocean.vdb", "--iso", "15", "--time", "700", "-o", "later.ply"});
+    EXPECT_NE(bytesOf("first.ply"), bytesOf("later.ply"));
+}
+
+TEST_F(Mesh, EmptySurfaceIsWrittenAndSaid) {
+    const RunResult result = run({"mesh", "ocean.vdb", "--iso", "1000", "-o", "empty.ply"});
+    EXPECT_TRUE(contains(result.err, "isoglass: note: the mesh is empty: iso-value 1000")) << result.err;
+    EXPECT_TRUE(contains(result.out, "0 vertices, 0 triangles")) << result.out;
+    EXPECT_TRUE(contains(bytesOf("empty.ply"), "element face 0"));
+}
+
+/// Two PVM key frames at times 0 and 1: a series that does not repeat.
+TEST_F(Mesh, TimeOutsideTheSeriesIsSaidAndShowsTheNearestKeyFrame) {
+    for (const char* name : {"a.pvm", "b.pvm"}) {
+        std::ofstream file(folder_ / name, std::ios::binary);
+        file << "PVM\n3 3 3\n1\n";
+        for (int i = 0; i < 27; ++i) file.put(static_cast<char>(i == 13 ? (name[0] == 'a' ? 200 : 100) : 0));
+    }
+    run({"import", "a.pvm", "b.pvm", "-o", "pvm.vdb"});
+    run({"mesh", "pvm.vdb", "--iso", "50", "--time", "1", "-o", "last.ply"});
+    const RunResult result = run({"mesh", "pvm.vdb", "--iso", "50", "--time", "7.5", "-o", "outside.ply"});
+    EXPECT_TRUE(contains(result.err, "time 7.5 lies outside the series")) << result.err;
+    EXPECT_EQ(bytesOf("outside.ply"), bytesOf("last.ply"));
+}
+
+}  // namespace
+}  // namespace isoglass::test

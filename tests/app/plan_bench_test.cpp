@@ -1,0 +1,73 @@
+#include "app/app_test.h"
+
+#include <nlohmann/json.hpp>
+
+#include <sstream>
+
+namespace isoglass::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class Plan : public AppTest {};
+
+TEST_F(Plan, JsonNamesEveryPassWithItsReason) {
+    writeScene();
+    const Json plan = Json::parse(run({"plan", "scene.json", "--json"}).out);
+    ASSERT_FALSE(plan.at("passes").empty());
+    ASSERT_FALSE(plan.at("left_out").empty());
+    for (const char* list : {"passes", "left_out"}) {
+        for (const Json& pass : plan.at(list)) {
+            EXPECT_FALSE(pass.at("pass").get<std::string>().empty());
+            EXPECT_FALSE(pass.at("reason").get<std::string>().empty());
+        }
+    }
+}
+
+TEST_F(Plan, TextSaysTheSameAsJson) {
+    writeScene();
+    const std::string text = run({"plan", "scene.json"}).out;
+    const Json plan = Json::parse(run({"plan", "scene.json", "--json"}).out);
+    for (const char* list : {"passes", "left_out"}) {
+        for (const Json& pass : plan.at(list)) {
+            const std::string line =
+                pass.at("pass").get<std::string>() + ": " + pass.at("reason").get<std::string>();
+            EXPECT_TRUE(contains(text, line)) << line;
+        }
+    }
+}
+
+std::set<std::string> passesOf(const std::string& json) {
+    std::set<std::string> names;
+    const Json plan = Json::parse(json);
+    for (const Json& pass : plan.at("passes")) names.insert(pass.at("pass"));
+    return names;
+}
+
+TEST_F(Plan, OnlyTheFourPassMethodNeedsBackFaceDepth) {
+    writeScene(R"("transparency": {"method": "3-pass"},)", "three.json");
+    writeScene(R"("transparency": {"method": "4-pass"},)", "four.json");
+    EXPECT_FALSE(passesOf(run({"plan", "three.json", "--json"}).out).contains("back-face depth"));
+    EXPECT_TRUE(passesOf(run({"plan", "four.json", "--json"}).out).contains("back-face depth"));
+}
+
+class Bench : public AppTest {};
+
+TEST_F(Bench, PrintsALineOfJson) {
+    const RunResult result =
+        run({"bench", "extract-blobs/64", "--json", "--repetitions", "3", "--threads", "1"});
+    std::istringstream lines(result.out);
+    std::string line;
+    ASSERT_TRUE(std::getline(lines, line)) << result.out;
+    const Json json = Json::parse(line);
+    EXPECT_EQ(json.at("name"), "extract-blobs");
+    EXPECT_EQ(json.at("size"), 64);
+    EXPECT_EQ(json.at("threads"), 1);
+    EXPECT_GT(json.at("median_ms"), 0);
+    EXPECT_GT(json.at("triangles"), 1000);
+    EXPECT_GT(json.at("peak_rss_mb"), 0);
+    EXPECT_FALSE(std::getline(lines, line)) << "one benchmark has this name, but there is also " << line;
+}
+
+}  // namespace
+}  // namespace isoglass::test

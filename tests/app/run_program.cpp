@@ -1,0 +1,91 @@
+#include "app/run_program.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+#include <thread>
+
+namespace isoglass::test {
+
+namespace {
+
+/// A pipe whose text is read to its end by a thread of its own: no full pipe stops the program.
+class Drain {
+  public:
+    Drain() {
+        if (::pipe2(ends_.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+    }
+
+    int writeEnd() const { return ends_[1]; }
+
+    /// Call it where the other side is running.
+    void start() {
+        ::close(ends_[1]);
+        thread_ = std::jthread([this] {
+            std::array<char, 4096> block;
+            for (ssize_t n = 0; (n = ::read(ends_[0], block.data(), block.size())) > 0;) {
+                text_.append(block.data(), static_cast<std::size_t>(n));
+            }
+            ::close(ends_[0]);
+        });
+    }
+
+    std::string finish() {
+        thread_.join();
+        return std::move(text_);
+    }
+
+  private:
+    std::array<int, 2> ends_{};
+    std::string text_;
+    std::jthread thread_;
+};
+
+[[noreturn]] void becomeProgram(const std::vector<std::string>& command, const RunOptions& options, int out,
+                                int err) {
+    ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
+    ::dup2(out, STDOUT_FILENO);
+    ::dup2(err, STDERR_FILENO);
+    if (!options.folder.empty() && ::chdir(options.folder.c_str()) != 0) ::_exit(126);
+    for (const std::string& variable : options.environment) ::putenv(const_cast<char*>(variable.c_str()));
+    if (options.fileSizeLimit) {
+        // A full disk fails the write and sends no signal.
+        ::signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{*options.fileSizeLimit, *options.fileSizeLimit};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    std::vector<char*> argv;
+    for (const std::string& argument : command) argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    ::execv(argv[0], argv.data());
+    ::_exit(127);
+}
+
+}  // namespace
+
+RunResult runProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                     const RunOptions& options) {
+    std::vector<std::string> command = {program.string()};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    Drain out, err;
+    const pid_t process = ::fork();
+    if (process < 0) throw std::runtime_error("cannot start " + program.string());
+    if (process == 0) becomeProgram(command, options, out.writeEnd(), err.writeEnd());
+    out.start();
+    err.start();
+    int status = 0;
+    ::waitpid(process, &status, 0);
+    RunResult result;
+    result.out = out.finish();
+    result.err = err.finish();
+    result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return result;
+}
+
+}  // namespace isoglass::test
