@@ -1,0 +1,1 @@
+#error "This room does not know OpenVDB: only volume does."
