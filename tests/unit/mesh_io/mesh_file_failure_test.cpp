@@ -2,13 +2,12 @@
 #include "example_meshes.h"
 #include "meshio/mesh_file.h"
 #include "scratch_folder.h"
+#include "support/file_size_limit.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -24,26 +23,6 @@ std::string messageOf(const std::filesystem::path& file, const SurfaceMesh& mesh
     }
     return "no error";
 }
-
-/// Lets no file of this process grow beyond `bytes`, as a full disk would not.
-class FileSizeLimit {
-  public:
-    explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-        getrlimit(RLIMIT_FSIZE, &before_);
-        const rlimit limit{bytes, before_.rlim_max};
-        setrlimit(RLIMIT_FSIZE, &limit);
-    }
-    ~FileSizeLimit() {
-        setrlimit(RLIMIT_FSIZE, &before_);
-        std::signal(SIGXFSZ, handler_);
-    }
-    FileSizeLimit(const FileSizeLimit&) = delete;
-    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
-  private:
-    void (*handler_)(int);
-    rlimit before_{};
-};
 
 TEST(MeshFileFailure, FullDiskIsReportedAndLeavesTheOlderFile) {
     const SurfaceMesh mesh = makeTorus(200, 100);

@@ -1,11 +1,10 @@
 #include "base/error.h"
 #include "render/png_file.h"
+#include "support/file_size_limit.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 
@@ -36,28 +35,6 @@ Image noise(int width, int height) {
     for (int i = 0; i < width * height; ++i) image.pixels.push_back({next(), next(), next(), next()});
     return image;
 }
-
-/// Files of this process may not grow beyond `bytes`, as on a disk that is full.
-class FileSizeLimit {
-  public:
-    explicit FileSizeLimit(rlim_t bytes) {
-        ::getrlimit(RLIMIT_FSIZE, &before_);
-        rlimit now = before_;
-        now.rlim_cur = bytes;
-        ::setrlimit(RLIMIT_FSIZE, &now);
-        handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    }
-    ~FileSizeLimit() {
-        ::setrlimit(RLIMIT_FSIZE, &before_);
-        std::signal(SIGXFSZ, handler_);
-    }
-    FileSizeLimit(const FileSizeLimit&) = delete;
-    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
-  private:
-    rlimit before_{};
-    void (*handler_)(int) = nullptr;
-};
 
 TEST_F(PngTest, PixelsComeBackAsTheyWereWritten) {
     const Image image = noise(7, 5);

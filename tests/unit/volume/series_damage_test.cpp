@@ -1,12 +1,11 @@
 #include "base/error.h"
+#include "support/file_size_limit.h"
 #include "unit/volume/series_fixture.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <functional>
 
 namespace isoglass {
@@ -119,26 +118,6 @@ TEST(SeriesDamage, KeyFrameThatIsNotThereIsAnError) {
     const SeriesFile file(folder / "series.vdb");
     EXPECT_TRUE(contains(messageOf([&] { file.read(2); }), "key frame 2"));
 }
-
-/// Lets no file of this process grow beyond `bytes`, as a full disk would not.
-class FileSizeLimit {
-  public:
-    explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-        getrlimit(RLIMIT_FSIZE, &before_);
-        const rlimit limit{bytes, before_.rlim_max};
-        setrlimit(RLIMIT_FSIZE, &limit);
-    }
-    ~FileSizeLimit() {
-        setrlimit(RLIMIT_FSIZE, &before_);
-        std::signal(SIGXFSZ, handler_);
-    }
-    FileSizeLimit(const FileSizeLimit&) = delete;
-    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
-  private:
-    void (*handler_)(int);
-    rlimit before_{};
-};
 
 TEST(SeriesDisk, FullDiskLeavesNothingBehindAndTheOlderFileAsItWas) {
     MemorySource source = makeSource();
