@@ -106,23 +106,4 @@ double TimerQuery::milliseconds() const {
     return static_cast<double>(nanoseconds) * 1e-6;
 }
 
-Sync::Sync() : sync_(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)) {}
-
-Sync::~Sync() {
-    if (sync_ != nullptr) glDeleteSync(sync_);
-}
-
-Sync::Sync(Sync&& other) noexcept : sync_(std::exchange(other.sync_, nullptr)) {}
-
-Sync& Sync::operator=(Sync&& other) noexcept {
-    std::swap(sync_, other.sync_);
-    return *this;
-}
-
-bool Sync::wait(double seconds) const {
-    const auto nanoseconds = static_cast<GLuint64>(seconds * 1e9);
-    const GLenum answer = glClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT, nanoseconds);
-    return answer == GL_ALREADY_SIGNALED || answer == GL_CONDITION_SATISFIED;
-}
-
 }  // namespace isoglass::gl

@@ -98,21 +98,4 @@ class TimerQuery : public Handle<destroyQuery> {
     double milliseconds() const;
 };
 
-/// A point in the command stream; tells when the GPU has passed it.
-class Sync {
-  public:
-    Sync();
-    ~Sync();
-    Sync(Sync&& other) noexcept;
-    Sync& operator=(Sync&& other) noexcept;
-    Sync(const Sync&) = delete;
-    Sync& operator=(const Sync&) = delete;
-
-    /// Waits at most `seconds`; false when the point has not been passed by then.
-    bool wait(double seconds) const;
-
-  private:
-    GLsync sync_;
-};
-
 }  // namespace isoglass::gl

@@ -20,7 +20,7 @@ using LinearColor = glm::vec3;
 /// Which side of an iso-surface is inside. The normal points outside.
 enum class Inside { above, below };
 
-/// How semi-transparent surfaces are composed (method page, section 2).
+/// How semi-transparent surfaces are composed (S. Roettger, "Volume rendering with libMini", 2007, section 4).
 enum class TransparencyMethod { automatic, threePass, fourPass };
 
 /// One iso-surface of a volume.

@@ -43,15 +43,16 @@ struct Extraction {
     ExtractStats stats;
 };
 
-/// Extracts one iso-surface at full resolution by compact Kuhn cells (method page, section 1): the six
+/// Extracts one iso-surface at full resolution by compact Kuhn cells: the six
 /// tetrahedra of a cell decide the topology, the vertices lie on axis edges.
 ///
 /// A vertex stands for one lattice edge, so the mesh is an oriented 2-manifold by vertex index whatever
 /// the samples are; its boundary lies where the domain ends or samples are missing. One exception: where
 /// of the four cells around an edge only two opposite ones have all samples, two fans share the edge's
-/// vertex. Positions are world coordinates by the axis tables of `lattice`, normals come from central
-/// differences in world space (one-sided beside the domain's end and missing samples). Zero-area
-/// triangles, where samples equal the iso-value, stay. Cost follows the bricks that the surface touches.
+/// vertex: still a manifold by edge. Positions are world coordinates by the axis tables of `lattice`, normals
+/// come from central differences in world space (one-sided beside the domain's end and missing samples).
+/// Zero-area triangles, where samples equal the iso-value, stay. Cost follows the bricks that the surface
+/// touches.
 ///
 /// Pure: any number of calls may run at once. The same arguments give the same bytes for any `threads`.
 /// Both key frames must be of `lattice`.

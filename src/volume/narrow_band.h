@@ -2,6 +2,7 @@
 
 #include "volume/key_frame.h"
 
+#include <filesystem>
 #include <memory>
 
 namespace isoglass {
@@ -13,5 +14,9 @@ namespace isoglass {
 /// The sphere and its band must lie inside the domain.
 std::shared_ptr<const KeyFrame> makeNarrowBandSphere(int samples, double radiusVoxels,
                                                      double halfWidthVoxels);
+
+/// Writes the same as a series of one key frame, at time 0, on a lattice of voxels. Throws Error.
+void writeNarrowBandSphere(const std::filesystem::path& out, int samples, double radiusVoxels,
+                           double halfWidthVoxels);
 
 }  // namespace isoglass

@@ -6,6 +6,7 @@
 #include "volume/series_file.h"
 #include "volume/series_grids.h"
 #include "volume/series_json.h"
+#include "volume/series_save.h"
 #include "volume/series_seal.h"
 #include "volume/sparse_grid.h"
 
@@ -123,6 +124,22 @@ glm::bvec3 periodicAxes(const Lattice& lattice) {
             lattice.axes[2].period.has_value()};
 }
 
+void saveSeries(const SeriesDescription& series, const openvdb::GridPtrVec& grids, AtomicFile& file,
+                const std::filesystem::path& out) {
+    const std::string description = toJson(series);
+    openvdb::MetaMap metadata;
+    metadata.insertMeta(kDescriptionKey, openvdb::StringMetadata(description));
+    try {
+        openvdb::io::File(file.temporaryPath().string()).write(grids, metadata);
+    } catch (const openvdb::Exception& failure) {
+        throw Error(std::string("cannot write: ") + failure.what(), out.string());
+    }
+    stampIdentifier(file.temporaryPath(), out, description);
+    sealFile(file.temporaryPath(), out);
+    checkWritten(file.temporaryPath(), out);
+    file.commit();
+}
+
 SeriesDescription writeSeries(FrameSource& source, const std::filesystem::path& out,
                               const SparsityOptions& options, const ImportProgress& progress) {
     openvdb::initialize();
@@ -150,18 +167,7 @@ SeriesDescription writeSeries(FrameSource& source, const std::filesystem::path& 
         if (progress) progress(i + 1, count);
     }
 
-    const std::string description = toJson(series);
-    openvdb::MetaMap metadata;
-    metadata.insertMeta(kDescriptionKey, openvdb::StringMetadata(description));
-    try {
-        openvdb::io::File(file.temporaryPath().string()).write(grids, metadata);
-    } catch (const openvdb::Exception& failure) {
-        throw Error(std::string("cannot write: ") + failure.what(), out.string());
-    }
-    stampIdentifier(file.temporaryPath(), out, description);
-    sealFile(file.temporaryPath(), out);
-    checkWritten(file.temporaryPath(), out);
-    file.commit();
+    saveSeries(series, grids, file, out);
     return series;
 }
 

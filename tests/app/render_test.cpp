@@ -77,14 +77,17 @@ TEST_F(Render, MethodsDiffer) {
     EXPECT_EQ(bytesOf("auto.png"), bytesOf("four.png")) << "overlapping closed surfaces need 4-pass";
 }
 
-TEST_F(Render, ProgressHasNoEscapeCodesOffTheTerminal) {
-    for (const auto& environment : {std::vector<std::string>{}, {"NO_COLOR=1"}}) {
-        const RunResult result =
-            run({"render", "scene.json", "-o", "f-{frame}.png"}, {.environment = environment});
-        EXPECT_TRUE(contains(result.err, "rendering 10/10 frames")) << result.err;
-        EXPECT_FALSE(contains(result.err, "\x1b")) << result.err;
-        EXPECT_FALSE(contains(result.err, "\r")) << result.err;
-        EXPECT_EQ(result.out, "");
+TEST_F(Render, ProgressIsRedrawnOnATerminalAloneAndNotWithNoColor) {
+    for (const bool terminal : {false, true}) {
+        for (const bool noColor : {false, true}) {
+            RunOptions options;
+            options.errIsTerminal = terminal;
+            if (noColor) options.environment = {"NO_COLOR=1"};
+            const RunResult result = run({"render", "scene.json", "-o", "f-{frame}.png"}, options);
+            EXPECT_TRUE(contains(result.err, "rendering 10/10 frames")) << result.err;
+            EXPECT_EQ(contains(result.err, "\x1b"), terminal && !noColor) << result.err;
+            EXPECT_EQ(result.out, "");
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 #include "app/run_program.h"
 
 #include <fcntl.h>
+#include <pty.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,11 +16,14 @@ namespace isoglass::test {
 
 namespace {
 
-/// A pipe whose text is read to its end by a thread of its own: no full pipe stops the program.
+/// A pipe or terminal whose text is read to its end by a thread of its own: when it is full it does not
+/// stop the program.
 class Drain {
   public:
-    Drain() {
-        if (::pipe2(ends_.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+    explicit Drain(bool terminal) {
+        const bool opened = terminal ? ::openpty(&ends_[0], &ends_[1], nullptr, nullptr, nullptr) == 0
+                                     : ::pipe2(ends_.data(), O_CLOEXEC) == 0;
+        if (!opened) throw std::runtime_error("no pipe");
     }
 
     int writeEnd() const { return ends_[1]; }
@@ -52,6 +56,7 @@ class Drain {
     ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
     ::dup2(out, STDOUT_FILENO);
     ::dup2(err, STDERR_FILENO);
+    ::unsetenv("NO_COLOR");
     if (!options.folder.empty() && ::chdir(options.folder.c_str()) != 0) ::_exit(126);
     for (const std::string& variable : options.environment) ::putenv(const_cast<char*>(variable.c_str()));
     if (options.fileSizeLimit) {
@@ -73,7 +78,7 @@ RunResult runProgram(const std::filesystem::path& program, const std::vector<std
                      const RunOptions& options) {
     std::vector<std::string> command = {program.string()};
     command.insert(command.end(), arguments.begin(), arguments.end());
-    Drain out, err;
+    Drain out(false), err(options.errIsTerminal);
     const pid_t process = ::fork();
     if (process < 0) throw std::runtime_error("cannot start " + program.string());
     if (process == 0) becomeProgram(command, options, out.writeEnd(), err.writeEnd());

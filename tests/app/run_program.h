@@ -14,6 +14,7 @@ struct RunOptions {
     /// No file grows beyond this, as on a full disk.
     std::optional<std::uint64_t> fileSizeLimit = {};
     std::vector<std::string> environment = {};  ///< NAME=VALUE, on top of that of the test
+    bool errIsTerminal = false;                 ///< standard error is a terminal
 };
 
 /// What a program left.
@@ -23,7 +24,7 @@ struct RunResult {
     std::string err;  ///< standard error
 };
 
-/// Runs a program to its end. Its standard output and error are no terminal, its standard input is empty.
+/// Runs a program to its end. Its standard output is no terminal, its standard input is empty.
 RunResult runProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                      const RunOptions& options = {});
 

@@ -28,7 +28,7 @@ struct Ray {
 /// (x + 0.5, y + 0.5).
 Ray pixelRay(const CameraView& camera, double x, double y);
 
-/// The closed forms of the method page, section 2: `threePass` B prod(1-a_i) + sum a_i c_i, `fourPass`
+/// The closed forms of the methods: `threePass` B prod(1-a_i) + sum a_i c_i, `fourPass`
 /// with the sum over the fragments up to the nearest back face. Fragments in any order; those behind the
 /// nearest opaque one do not count.
 glm::dvec3 compose(const std::vector<Fragment>& fragments, const glm::dvec3& background,

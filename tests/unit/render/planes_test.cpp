@@ -60,7 +60,7 @@ class Planes : public RenderTest {
         return frame;
     }
 
-    /// Every pixel, the edge between the two triangles included. 1e-4 is the bound; the float
+    /// Every pixel, the edge between the two triangles included. 1e-4 is what the methods promise; the float
     /// error of k layers is k 2^-24.
     void expectClosedForm(const std::vector<Layer>& layers, TransparencyMethod method) {
         const glm::dvec3 expected = closedForm(layers, method);
