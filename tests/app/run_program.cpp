@@ -93,4 +93,12 @@ RunResult runProgram(const std::filesystem::path& program, const std::vector<std
     return result;
 }
 
+bool canMakeTerminal() {
+    int ends[2];
+    if (::openpty(&ends[0], &ends[1], nullptr, nullptr, nullptr) != 0) return false;
+    ::close(ends[0]);
+    ::close(ends[1]);
+    return true;
+}
+
 }  // namespace isoglass::test

@@ -28,4 +28,7 @@ struct RunResult {
 RunResult runProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                      const RunOptions& options = {});
 
+/// Whether this system can make a terminal: without /dev/pts, as in a plain chroot, it cannot.
+bool canMakeTerminal();
+
 }  // namespace isoglass::test
