@@ -6,6 +6,8 @@
 
 #include <glm/vec3.hpp>
 
+#include <array>
+#include <optional>
 #include <vector>
 
 namespace isoglass::test {
@@ -23,6 +25,17 @@ struct Fragment {
 struct Ray {
     glm::dvec3 origin, direction;
 };
+
+/// Where a ray meets a triangle.
+struct TriangleHit {
+    double distance;  ///< along the ray, above 0
+    bool backFace;    ///< the ray sees the triangle's corners clockwise
+    glm::dvec3 barycentric;
+};
+
+/// Plane and edge functions in double (Moeller and Trumbore 1997). Both triangles beside an edge take a
+/// ray through it: the tolerance is 2^-40 of the triangle, so that none slips between them.
+std::optional<TriangleHit> intersectTriangle(const Ray& ray, const std::array<glm::dvec3, 3>& corner);
 
 /// Ray through a point of the image in pixels from its upper left corner; pixel (x,y) has its center at
 /// (x + 0.5, y + 0.5).
@@ -43,9 +56,5 @@ struct TruthSurface {
     SurfaceMesh mesh;
     SurfaceDraw draw;
 };
-
-/// Intersects the ray with every triangle of every surface. Nearest first.
-std::vector<Fragment> intersect(const Ray& ray, const std::vector<TruthSurface>& surfaces,
-                                const Lighting& lighting);
 
 }  // namespace isoglass::test

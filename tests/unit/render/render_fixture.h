@@ -2,7 +2,8 @@
 
 #include "gl/headless_context.h"
 #include "render/renderer.h"
-#include "support/cpu_compositor.h"
+#include "support/ground_truth.h"
+#include "support/image_compare.h"
 
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
