@@ -1,6 +1,7 @@
 #include "volume/key_frame.h"
 
 #include "basis/parallel.h"
+#include "volume/pyramid.h"
 
 #include <glm/common.hpp>
 
@@ -57,11 +58,19 @@ PartRanges partRanges(const BrickView& brick, glm::ivec3 inside) {
 KeyFrame::KeyFrame(glm::ivec3 dims, glm::bvec3 periodic, Pool pool, std::vector<BrickView> bricks,
                    std::vector<std::uint32_t> brickIndex)
     : dims_(dims),
+      periodic_(periodic),
       brickDims_((dims + (kBrickSize - 1)) / kBrickSize),
       pool_(std::move(pool)),
       bricks_(std::move(bricks)),
       brickIndex_(std::move(brickIndex)) {
     computeRanges(periodic);
+}
+
+KeyFrame::~KeyFrame() = default;
+
+const Pyramid& KeyFrame::pyramid() const {
+    std::call_once(pyramidOnce_, [this] { pyramid_ = std::make_unique<const Pyramid>(*this); });
+    return *pyramid_;
 }
 
 void KeyFrame::computeRanges(glm::bvec3 periodic) {

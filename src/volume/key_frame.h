@@ -6,9 +6,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 namespace isoglass {
+
+class Pyramid;
 
 /// Samples along one side of a brick; one OpenVDB leaf.
 inline constexpr int kBrickSize = 8;
@@ -43,8 +47,12 @@ class KeyFrame {
     /// `periodic` says along which axes the first sample follows the last.
     KeyFrame(glm::ivec3 dims, glm::bvec3 periodic, Pool pool, std::vector<BrickView> bricks,
              std::vector<std::uint32_t> brickIndex);
+    ~KeyFrame();
 
     glm::ivec3 dims() const { return dims_; }
+    glm::bvec3 periodic() const { return periodic_; }
+    /// Cells along each axis: one less than the samples, as many where it is periodic.
+    glm::ivec3 cells() const { return dims_ - 1 + glm::ivec3(periodic_); }
     glm::ivec3 brickDims() const { return brickDims_; }
     std::size_t brickCount() const { return brickIndex_.size(); }
 
@@ -61,18 +69,25 @@ class KeyFrame {
     /// Value of one sample, NaN where it is missing. For tests and probes, not for loops.
     float sample(glm::ivec3 index) const;
 
-    /// Memory that the key frame holds: samples, masks and tables.
+    /// Memory that the key frame holds: samples, masks and tables, without the pyramid.
     std::size_t bytes() const;
+
+    /// The coarser levels, built by the first call: about a seventh of the samples is copied. Any thread,
+    /// but not from inside a parallel loop.
+    const Pyramid& pyramid() const;
 
   private:
     void computeRanges(glm::bvec3 periodic);
 
     glm::ivec3 dims_;
+    glm::bvec3 periodic_;
     glm::ivec3 brickDims_;
     Pool pool_;
     std::vector<BrickView> bricks_;
     std::vector<std::uint32_t> brickIndex_;
     std::vector<ValueRange> ranges_;
+    mutable std::once_flag pyramidOnce_;
+    mutable std::unique_ptr<const Pyramid> pyramid_;
 };
 
 }  // namespace isoglass
