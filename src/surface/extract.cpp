@@ -2,6 +2,7 @@
 
 #include "basis/parallel.h"
 #include "surface/brick_surface.h"
+#include "surface/extract_view.h"
 
 #include <algorithm>
 #include <cmath>
@@ -163,6 +164,7 @@ void writeMesh(const IndexSpace& space, const ExtractOptions& options, const Sel
 }  // namespace
 
 Extraction extractSurface(const Lattice& lattice, const TimedField& field, const ExtractOptions& options) {
+    if (options.view && options.view->wantsDetail()) return extractForView(lattice, field, options);
     const IndexSpace space(lattice);
     const Selection selection = selectBricks(space, field, options);
     Extraction result;

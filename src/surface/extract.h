@@ -22,8 +22,7 @@ struct ExtractOptions {
     /// The surface separates f >= iso (inside) from the rest; compared as float, like the samples.
     float iso = 0;
     bool insideIsBelow = false;  ///< inside is f <= iso instead
-    /// From where the mesh will be seen. Full resolution satisfies every view, so it changes nothing
-    /// until meshes have levels of detail.
+    /// From where the mesh will be seen; full resolution where not given, or where it asks for none less.
     std::optional<View> view = {};
     int threads = 0;  ///< 0 takes all cores; the mesh does not depend on it
 };

@@ -4,11 +4,20 @@
 
 namespace isoglass {
 
-/// From where a surface will be seen, in the coordinates of its series.
+/// From where a surface will be seen, and how fine it has to be.
 struct View {
-    glm::dvec3 eye{0};
+    glm::dvec3 eye{0};  ///< in the coordinates of the series
+    /// World length of a unit along each axis of the series: distances are measured in the world, whose
+    /// axes the placement of the series may stretch.
+    glm::dvec3 worldPerUnit{1};
     /// Pixels that a length of 1 at distance 1 covers: image height / (2 tan(fov / 2)).
     double pixelsPerUnit = 1;
+    /// Largest cell size on the screen in pixels, away from the eye in any direction; 0 asks for full
+    /// resolution. At most about a fourteenth of `pixelsPerUnit` acts, since detail may not change faster
+    /// over the lattice than levels can.
+    double cellPixels = 0;
+
+    bool wantsDetail() const { return cellPixels > 0; }
 };
 
 }  // namespace isoglass

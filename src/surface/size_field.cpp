@@ -1,0 +1,107 @@
+#include "surface/size_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace isoglass {
+
+namespace {
+
+/// A size may grow by the cell size h over the diagonal of 8^3 cells of it. Then sizes stay below 4 h in
+/// the bricks of size h, bricks that touch are at most one level apart, and blending looks at most two
+/// levels up. The rest of this factor below 1 makes up for kMargin.
+constexpr double kLargestGrowth = 0.9968;
+/// Share by which sizes must exceed that of a coarse brick's cells, against rounding where it touches
+/// finer ones.
+constexpr float kMargin = 1.0f / 1024;
+
+/// Growth of the size along one brick side, in a function that is linear in the tetrahedra between brick
+/// corners: its gradient is then at most sqrt(3) times this per 8 cells, as much as sizes may grow.
+constexpr float kGrowthPerBrick = static_cast<float>(kLargestGrowth / 3);
+
+/// Size per world length that the view asks for, as far as it is allowed.
+double sizePerLength(const LevelSpace& space, const View& view) {
+    double longest = 0;
+    double diagonal = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double step = space.largestStep[k] * std::abs(view.worldPerUnit[k]);
+        longest = std::max(longest, step);
+        diagonal += step * step;
+    }
+    const double asked = view.cellPixels / (view.pixelsPerUnit * longest);
+    return std::min(asked, kLargestGrowth / (kBrickSize * std::sqrt(diagonal)));
+}
+
+}  // namespace
+
+SizeField::SizeField(const LevelSpace& space, const View& view, std::vector<const MissingDistance*> missing)
+    : missing_(std::move(missing)) {
+    std::erase_if(missing_, [](const MissingDistance* distance) { return distance->empty(); });
+    const double factor = sizePerLength(space, view);
+    for (int k = 0; k < 3; ++k) {
+        const double eye = view.eye[k] - space.levels[0].origin[k];
+        for (const double coordinate : space.coordinate[k]) {
+            const double part = (coordinate - eye) * view.worldPerUnit[k] * factor;
+            squares_[k].push_back(static_cast<float>(part * part));
+        }
+        nearest_[k] =
+            static_cast<int>(std::min_element(squares_[k].begin(), squares_[k].end()) - squares_[k].begin());
+    }
+}
+
+float SizeField::at(glm::ivec3 index) const {
+    const float sum = squares_[0][index.x] + squares_[1][index.y] + squares_[2][index.z];
+    const float size = std::max(1.0f, std::sqrt(sum));
+    return missing_.empty() ? size : std::min(size, missingLimit(index));
+}
+
+/// Linear in each of the six tetrahedra of a brick that go from its first corner to its last.
+float SizeField::missingLimit(glm::ivec3 index) const {
+    const glm::ivec3 brick = index / kBrickSize;
+    const glm::ivec3 part = index % kBrickSize;
+    std::array<int, 3> order = {0, 1, 2};
+    std::ranges::stable_sort(order, [&](int a, int b) { return part[a] > part[b]; });
+    int smallest = std::numeric_limits<int>::max();
+    for (const MissingDistance* distance : missing_) {
+        glm::ivec3 corner = brick;
+        int sum = (kBrickSize - part[order[0]]) * distance->at(corner);
+        for (int k = 0; k < 3; ++k) {
+            ++corner[order[k]];
+            sum += (part[order[k]] - (k < 2 ? part[order[k + 1]] : 0)) * distance->at(corner);
+        }
+        smallest = std::min(smallest, sum);
+    }
+    return 1 + kGrowthPerBrick / kBrickSize * static_cast<float>(smallest);
+}
+
+float SizeField::smallest(LevelBrick node) const {
+    glm::ivec3 index;
+    for (int k = 0; k < 3; ++k) {
+        const Range range = indices(node, k);
+        index[k] = std::clamp(nearest_[k], range.begin, range.end);
+    }
+    const float sum = squares_[0][index.x] + squares_[1][index.y] + squares_[2][index.z];
+    float size = std::max(1.0f, std::sqrt(sum));
+    for (const MissingDistance* distance : missing_) {
+        const int bricks = distance->smallest(node.level, node.brick);
+        size = std::min(size, 1 + kGrowthPerBrick * static_cast<float>(bricks));
+    }
+    return size;
+}
+
+float SizeField::largestByDistance(LevelBrick node) const {
+    glm::ivec3 index;
+    for (int k = 0; k < 3; ++k) {
+        const Range range = indices(node, k);
+        index[k] = squares_[k][range.begin] > squares_[k][range.end] ? range.begin : range.end;
+    }
+    const float sum = squares_[0][index.x] + squares_[1][index.y] + squares_[2][index.z];
+    return std::max(1.0f, std::sqrt(sum));
+}
+
+bool SizeField::isCoarseEnough(LevelBrick node) const {
+    return node.level == 0 || smallest(node) >= (1 + kMargin) * static_cast<float>(1 << node.level);
+}
+
+}  // namespace isoglass
