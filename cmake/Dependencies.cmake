@@ -1,4 +1,4 @@
-# Everything comes from Debian's packages: scripts/packages.txt lists them.
+# What the libraries stand on, here and in programs that use them. Everything comes from Debian's packages: scripts/packages.txt lists them.
 list(APPEND CMAKE_MODULE_PATH "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB")
 
 set(Boost_NO_WARN_NEW_VERSIONS ON)
@@ -8,13 +8,8 @@ find_package(nlohmann_json REQUIRED)
 find_package(OpenVDB REQUIRED)
 find_package(TBB REQUIRED)
 find_package(OpenMesh REQUIRED)
-find_package(CLI11 REQUIRED)
 find_package(PNG REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(netcdf REQUIRED IMPORTED_TARGET netcdf)
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
-find_package(benchmark REQUIRED)
-if(ISOGLASS_TESTS)
-  find_package(GTest REQUIRED)
-endif()

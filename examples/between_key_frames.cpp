@@ -2,13 +2,13 @@
 //
 //     between_key_frames OUT.ply
 
-#include <iostream>
-
 #include "mesh/mesh_check.h"
 #include "meshio/mesh_file.h"
 #include "surface/extract.h"
 #include "volume/analytic.h"
 #include "volume/time_axis.h"
+
+#include <iostream>
 
 int main(int argc, char** argv) {
     using namespace isoglass;

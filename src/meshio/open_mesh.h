@@ -9,6 +9,8 @@
 #include <mutex>
 #include <vector>
 
+// Private to the room: it includes OpenMesh.
+
 namespace isoglass {
 
 /// Sole use of OpenMesh's readers and writers, which are global objects with state, and silence on their

@@ -1,0 +1,16 @@
+# Installs the build in BUILD into PREFIX, which is emptied first.
+file(REMOVE_RECURSE "${PREFIX}")
+execute_process(COMMAND "${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${PREFIX}"
+  OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+foreach(file bin/isoglass include/isoglass/surface/extract.h include/isoglass/pipeline/batch.h)
+  if(NOT EXISTS "${PREFIX}/${file}")
+    message(FATAL_ERROR "${file} was not installed")
+  endif()
+endforeach()
+file(GLOB_RECURSE headers "${PREFIX}/include/*.h")
+foreach(header IN LISTS headers)
+  file(STRINGS "${header}" foreign REGEX "#include <(openvdb|CLI|netcdf|vtk|OpenMesh)")
+  if(foreign)
+    message(FATAL_ERROR "${header} shows a library that outsiders should not need: ${foreign}")
+  endif()
+endforeach()
