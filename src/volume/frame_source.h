@@ -24,6 +24,10 @@ class FrameSource {
     /// Reads key frame `frame` into `samples`: dims x*y*z values, x fastest, then y, then z. A missing
     /// sample (fill value, NaN, infinity, or of magnitude above kLargestValue) becomes a quiet NaN.
     virtual void read(std::size_t frame, std::span<float> samples) = 0;
+
+    /// Reads the heights of the samples of key frame `frame`, in the same order. Called only where the
+    /// description's lattice has `heights`, of which but the name and the units are known before.
+    virtual void readHeights(std::size_t frame, std::span<float> heights);
 };
 
 /// Samples above this magnitude count as missing: a difference of two could not be represented.

@@ -56,13 +56,14 @@ PartRanges partRanges(const BrickView& brick, glm::ivec3 inside) {
 }  // namespace
 
 KeyFrame::KeyFrame(glm::ivec3 dims, glm::bvec3 periodic, Pool pool, std::vector<BrickView> bricks,
-                   std::vector<std::uint32_t> brickIndex)
+                   std::vector<std::uint32_t> brickIndex, std::shared_ptr<const KeyFrame> heights)
     : dims_(dims),
       periodic_(periodic),
       brickDims_((dims + (kBrickSize - 1)) / kBrickSize),
       pool_(std::move(pool)),
       bricks_(std::move(bricks)),
-      brickIndex_(std::move(brickIndex)) {
+      brickIndex_(std::move(brickIndex)),
+      heights_(std::move(heights)) {
     computeRanges(periodic);
 }
 
@@ -126,7 +127,7 @@ float KeyFrame::sample(glm::ivec3 index) const {
 std::size_t KeyFrame::bytes() const {
     return pool_.samples.size() * sizeof(float) + pool_.valid.size() * sizeof(std::uint64_t) +
            bricks_.size() * sizeof(BrickView) + brickIndex_.size() * sizeof(std::uint32_t) +
-           ranges_.size() * sizeof(ValueRange);
+           ranges_.size() * sizeof(ValueRange) + (heights_ ? heights_->bytes() : 0);
 }
 
 }  // namespace isoglass

@@ -44,9 +44,10 @@ class KeyFrame {
     };
 
     /// `brickIndex` names the entry of `bricks` for every brick, x fastest; the entries point into `pool`.
-    /// `periodic` says along which axes the first sample follows the last.
+    /// `periodic` says along which axes the first sample follows the last. `heights`, if any, are those of
+    /// the same samples.
     KeyFrame(glm::ivec3 dims, glm::bvec3 periodic, Pool pool, std::vector<BrickView> bricks,
-             std::vector<std::uint32_t> brickIndex);
+             std::vector<std::uint32_t> brickIndex, std::shared_ptr<const KeyFrame> heights = nullptr);
     ~KeyFrame();
 
     glm::ivec3 dims() const { return dims_; }
@@ -66,10 +67,15 @@ class KeyFrame {
     /// bricks (9^3 in all), which bounds the field in the brick's cells.
     ValueRange range(std::size_t linear) const { return ranges_[linear]; }
 
+    /// World z of every sample, as a second channel in the same bricks; null where the lattice's third axis
+    /// table says it (`Lattice::heights`).
+    const std::shared_ptr<const KeyFrame>& heights() const { return heights_; }
+
     /// Value of one sample, NaN where it is missing. For tests and probes, not for loops.
     float sample(glm::ivec3 index) const;
 
-    /// Memory that the key frame holds: samples, masks and tables, without the pyramid.
+    /// Memory that the key frame holds: samples, masks and tables, with those of its heights, without the
+    /// pyramid.
     std::size_t bytes() const;
 
     /// The coarser levels, built by the first call: about a seventh of the samples is copied. Any thread,
@@ -86,6 +92,7 @@ class KeyFrame {
     std::vector<BrickView> bricks_;
     std::vector<std::uint32_t> brickIndex_;
     std::vector<ValueRange> ranges_;
+    std::shared_ptr<const KeyFrame> heights_;
     mutable std::once_flag pyramidOnce_;
     mutable std::unique_ptr<const Pyramid> pyramid_;
 };

@@ -32,6 +32,10 @@ std::array<glm::dvec3, 2> Lattice::bounds() const {
         corners[0][k] = std::min(first, last);
         corners[1][k] = std::max(first, last);
     }
+    if (heights) {
+        corners[0].z = heights->min;
+        corners[1].z = heights->max;
+    }
     return corners;
 }
 

@@ -31,9 +31,23 @@ struct Axis {
     double coordinate(std::size_t index) const;
 };
 
+/// World heights that a field gives, one a sample and key frame, instead of the third axis table: levels
+/// that follow the terrain, for instance. Linear in time between key frames, like the samples. Along every
+/// column they go strictly the way of that axis, and every valid sample has one.
+struct HeightField {
+    std::string name;   ///< as the import was asked for it, e.g. "(PH+PHB)/9.81"
+    std::string units;  ///< as in the source; empty where it is a formula
+    double min = 0;     ///< over all key frames
+    double max = 0;
+
+    friend bool operator==(const HeightField&, const HeightField&) = default;
+};
+
 /// Where the samples are: three axis tables, x, y, z. World is right-handed with z up.
 struct Lattice {
     std::array<Axis, 3> axes;
+    /// Where set, the key frames bring the world z of every sample, and axes[2] is but their mean a level.
+    std::optional<HeightField> heights;
 
     /// Samples along x, y, z.
     glm::ivec3 dims() const;
@@ -41,7 +55,7 @@ struct Lattice {
     glm::ivec3 cells() const;
     /// True when the mapping from index to world turns a right-handed triple into a left-handed one.
     bool mirrored() const;
-    /// Smallest and largest world corner of the domain.
+    /// Smallest and largest world corner of the domain, at all times.
     std::array<glm::dvec3, 2> bounds() const;
 };
 

@@ -24,7 +24,9 @@ struct FrameRecord {
     std::uint64_t validSamples = 0;  ///< the others are missing
     std::uint64_t activeVoxels = 0;  ///< stored one by one, not as part of a constant tile
     std::uint32_t checksum = 0;      ///< CRC-32 of the samples as stored
-    std::uint64_t bytes = 0;         ///< memory that the key frame takes once it is read
+    std::uint64_t bytes = 0;         ///< memory that the key frame takes once it is read, with its heights
+    /// CRC-32 of the heights as stored, where the lattice has them.
+    std::optional<std::uint32_t> heightsChecksum = {};
 };
 
 /// Everything that describes a series but its samples. Kept as metadata in the series' file.

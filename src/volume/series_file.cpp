@@ -34,6 +34,27 @@ std::string readDescription(openvdb::io::File& file, const std::string& where) {
     return text->value();
 }
 
+openvdb::FloatGrid::Ptr readGrid(openvdb::io::File& file, std::mutex& mutex, const std::string& name,
+                                 const std::string& where) {
+    openvdb::FloatGrid::Ptr grid;
+    try {
+        const std::scoped_lock lock(mutex);
+        grid = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid(name));
+    } catch (const std::exception& failure) {
+        throw Error(std::string("cannot read the samples: ") + failure.what(), where,
+                    "import the series again");
+    }
+    if (!grid) throw Error("the grid is missing or holds no floats", where, "import the series again");
+    return grid;
+}
+
+void requireChecksum(const KeyFrame& frame, std::uint32_t expected, const std::string& what,
+                     const std::string& where) {
+    if (checksum(frame) == expected) return;
+    throw Error("the " + what + " are damaged: their checksum is not the one in the description", where,
+                "import the series again");
+}
+
 }  // namespace
 
 SeriesFile::SeriesFile(const std::filesystem::path& path) : impl_(std::make_unique<Impl>()) {
@@ -66,21 +87,17 @@ const std::filesystem::path& SeriesFile::path() const {
 std::shared_ptr<const KeyFrame> SeriesFile::read(std::size_t frame) const {
     const SeriesDescription& series = impl_->description;
     const std::string where = impl_->path.string() + ", key frame " + std::to_string(frame);
-    openvdb::FloatGrid::Ptr grid;
-    try {
-        const std::scoped_lock lock(impl_->mutex);
-        grid = openvdb::gridPtrCast<openvdb::FloatGrid>(impl_->file->readGrid(gridName(series, frame)));
-    } catch (const std::exception& failure) {
-        throw Error(std::string("cannot read the samples: ") + failure.what(), where,
-                    "import the series again");
+    const glm::ivec3 dims = series.lattice.dims();
+    const glm::bvec3 periodic = periodicAxes(series.lattice);
+    std::shared_ptr<const KeyFrame> heights;
+    if (series.lattice.heights) {
+        const auto grid = readGrid(*impl_->file, impl_->mutex, heightsGridName(series, frame), where);
+        heights = makeKeyFrame(*grid, dims, periodic, /*inactiveIsMissing=*/true);
+        requireChecksum(*heights, series.frames[frame].heightsChecksum.value(), "heights", where);
     }
-    if (!grid) throw Error("the grid is missing or holds no floats", where, "import the series again");
-    auto keyFrame =
-        makeKeyFrame(*grid, series.lattice.dims(), periodicAxes(series.lattice), series.inactiveIsMissing);
-    if (checksum(*keyFrame) != series.frames[frame].checksum) {
-        throw Error("the samples are damaged: their checksum is not the one in the description", where,
-                    "import the series again");
-    }
+    const auto grid = readGrid(*impl_->file, impl_->mutex, gridName(series, frame), where);
+    auto keyFrame = makeKeyFrame(*grid, dims, periodic, series.inactiveIsMissing, std::move(heights));
+    requireChecksum(*keyFrame, series.frames[frame].checksum, "samples", where);
     return keyFrame;
 }
 

@@ -12,7 +12,8 @@
 
 namespace isoglass {
 
-/// A series in an OpenVDB file that IsoGlass wrote: one float grid a key frame.
+/// A series in an OpenVDB file that IsoGlass wrote: one float grid a key frame, and a second one with its
+/// heights where the lattice has them.
 ///
 /// Every member may be called from any thread; reads of samples are serialised.
 class SeriesFile {
@@ -56,7 +57,9 @@ using ImportProgress = std::function<void(std::size_t done, std::size_t total)>;
 SeriesDescription writeSeries(FrameSource& source, const std::filesystem::path& out,
                               const SparsityOptions& options = {}, const ImportProgress& progress = {});
 
-/// Builds a key frame in memory from dense samples (x fastest, NaN = missing), for generated fields.
-std::shared_ptr<const KeyFrame> makeKeyFrame(const Lattice& lattice, std::span<const float> samples);
+/// Builds a key frame in memory from dense samples (x fastest, NaN = missing), for generated fields; with
+/// dense heights where `lattice` has them.
+std::shared_ptr<const KeyFrame> makeKeyFrame(const Lattice& lattice, std::span<const float> samples,
+                                             std::span<const float> heights = {});
 
 }  // namespace isoglass

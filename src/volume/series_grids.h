@@ -17,6 +17,9 @@ inline constexpr const char* kDescriptionKey = "isoglass.series";
 /// Name of the grid that holds key frame `frame`.
 std::string gridName(const SeriesDescription& series, std::size_t frame);
 
+/// Name of the grid that holds its heights, where the lattice has them.
+std::string heightsGridName(const SeriesDescription& series, std::size_t frame);
+
 /// Along which axes the first sample follows the last.
 glm::bvec3 periodicAxes(const Lattice& lattice);
 

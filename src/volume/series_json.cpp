@@ -15,7 +15,9 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// Programs that know nothing of heights must not show a series that has them in the wrong place.
 constexpr int kVersion = 1;
+constexpr int kVersionWithHeights = 2;
 /// A lattice with more samples along an axis than this is taken for a damaged file: brick and sample
 /// numbers are 32-bit integers.
 constexpr std::size_t kMostSamplesPerAxis = 1u << 20;
@@ -92,32 +94,59 @@ TimeAxis timeFromJson(const Json& json) {
 }
 
 Json frameToJson(const FrameRecord& frame) {
-    return {{"range", rangeToJson(frame.range)},
-            {"valid", frame.validSamples},
-            {"active", frame.activeVoxels},
-            {"crc32", frame.checksum},
-            {"bytes", frame.bytes}};
+    Json json = {{"range", rangeToJson(frame.range)},
+                 {"valid", frame.validSamples},
+                 {"active", frame.activeVoxels},
+                 {"crc32", frame.checksum},
+                 {"bytes", frame.bytes}};
+    if (frame.heightsChecksum) json["heights_crc32"] = *frame.heightsChecksum;
+    return json;
 }
 
 FrameRecord frameFromJson(const Json& json) {
-    return {rangeFromJson(json.at("range")), json.at("valid"), json.at("active"), json.at("crc32"),
-            json.at("bytes")};
+    FrameRecord frame{rangeFromJson(json.at("range")), json.at("valid"), json.at("active"), json.at("crc32"),
+                      json.at("bytes")};
+    if (json.contains("heights_crc32")) frame.heightsChecksum = json["heights_crc32"].get<std::uint32_t>();
+    return frame;
+}
+
+Json heightsToJson(const HeightField& heights) {
+    return {{"name", heights.name}, {"units", heights.units}, {"range", {heights.min, heights.max}}};
+}
+
+HeightField heightsFromJson(const Json& json) {
+    HeightField heights{json.at("name"), json.at("units"), json.at("range").at(0), json.at("range").at(1)};
+    if (!(heights.min <= heights.max)) throw std::invalid_argument("the range of heights is empty");
+    return heights;
+}
+
+/// Throws where heights contradict the rest.
+void checkHeights(const SeriesDescription& series) {
+    const bool expected = series.lattice.heights.has_value();
+    for (const FrameRecord& frame : series.frames) {
+        if (frame.heightsChecksum.has_value() != expected)
+            throw std::invalid_argument("key frames and lattice do not agree on heights");
+    }
+    if (expected && series.lattice.axes[2].period) throw std::invalid_argument("heights cannot be periodic");
 }
 
 SeriesDescription parse(std::string_view text) {
     const Json json = Json::parse(text);
-    if (json.at("version") != kVersion) throw std::invalid_argument("its version is unknown");
+    const bool heights = json.at("version") == kVersionWithHeights;
+    if (!heights && json["version"] != kVersion) throw std::invalid_argument("its version is unknown");
     SeriesDescription series;
     series.name = json.at("name");
     series.longName = json.at("long_name");
     series.units = json.at("units");
     for (int k = 0; k < 3; ++k) series.lattice.axes[k] = axisFromJson(json.at("axes").at(k));
+    if (heights) series.lattice.heights = heightsFromJson(json.at("heights"));
     series.time = timeFromJson(json.at("time"));
     for (const Json& frame : json.at("frames")) series.frames.push_back(frameFromJson(frame));
     if (series.frames.size() != series.time.times.size()) {
         throw std::invalid_argument("it has " + std::to_string(series.time.times.size()) + " times but " +
                                     std::to_string(series.frames.size()) + " key frames");
     }
+    checkHeights(series);
     series.inactiveIsMissing = json.at("inactive_is_missing");
     series.storedError = json.at("stored_error");
     if (json.contains("keep")) series.keep = rangeFromJson(json["keep"]);
@@ -133,7 +162,7 @@ std::string asUtf8(const std::string& text) {
 }
 
 std::string toJson(const SeriesDescription& series) {
-    Json json = {{"version", kVersion},
+    Json json = {{"version", series.lattice.heights ? kVersionWithHeights : kVersion},
                  {"name", series.name},
                  {"long_name", series.longName},
                  {"units", series.units},
@@ -143,6 +172,7 @@ std::string toJson(const SeriesDescription& series) {
                  {"provenance", series.provenance},
                  {"notes", series.notes}};
     for (const Axis& axis : series.lattice.axes) json["axes"].push_back(axisToJson(axis));
+    if (series.lattice.heights) json["heights"] = heightsToJson(*series.lattice.heights);
     for (const FrameRecord& frame : series.frames) json["frames"].push_back(frameToJson(frame));
     if (series.keep) json["keep"] = rangeToJson(*series.keep);
     // Text from foreign files may not be UTF-8; it must not make the series unwritable.

@@ -3,6 +3,7 @@
 #include "basis/parallel.h"
 #include "volume/brick_fates.h"
 #include "volume/checksum.h"
+#include "volume/heights.h"
 #include "volume/series_file.h"
 #include "volume/series_grids.h"
 #include "volume/series_json.h"
@@ -38,6 +39,7 @@ FrameRecord describeFrame(const openvdb::FloatGrid& grid, const KeyFrame& frame,
     record.activeVoxels = grid.tree().activeLeafVoxelCount();
     record.checksum = checksum(frame);
     record.bytes = frame.bytes();
+    if (frame.heights()) record.heightsChecksum = checksum(*frame.heights());
     return record;
 }
 
@@ -110,6 +112,45 @@ std::vector<std::vector<BrickFate>> allFates(FrameSource& source, const Sparsity
     return fatesToKeep(series.lattice, sides, series.time.period.has_value(), *options.keep);
 }
 
+openvdb::FloatGrid::Ptr nameGrid(openvdb::FloatGrid::Ptr grid, const std::string& name,
+                                 const SeriesDescription& series, std::size_t frame) {
+    grid->setName(name);
+    grid->setTransform(transformOf(series.lattice));
+    grid->insertMeta("isoglass.time", openvdb::DoubleMetadata(series.time.times[frame]));
+    return grid;
+}
+
+/// Checks the heights of the key frames and makes grids of them.
+class HeightsWriter {
+  public:
+    explicit HeightsWriter(const SeriesDescription& series) : series_(series), check_(series.lattice) {}
+
+    /// `samples` are the values of key frame `frame`; the new grid is appended to `grids`.
+    std::shared_ptr<const KeyFrame> add(FrameSource& source, std::size_t frame,
+                                        std::span<const float> samples, openvdb::GridPtrVec& grids) {
+        const glm::ivec3 dims = series_.lattice.dims();
+        heights_.resize(samples.size());
+        source.readHeights(frame, heights_);
+        check_.add(frame, samples, heights_);
+        const auto grid =
+            nameGrid(makeSparseGrid(dims, heights_, 0), heightsGridName(series_, frame), series_, frame);
+        grids.push_back(grid);
+        return makeKeyFrame(*grid, dims, periodicAxes(series_.lattice), true);
+    }
+
+    /// Completes the description.
+    void finish(HeightField& heights) const {
+        check_.finish();
+        heights.min = check_.min();
+        heights.max = check_.max();
+    }
+
+  private:
+    const SeriesDescription& series_;
+    HeightCheck check_;
+    std::vector<float> heights_;
+};
+
 }  // namespace
 
 std::string gridName(const SeriesDescription& series, std::size_t frame) {
@@ -117,6 +158,10 @@ std::string gridName(const SeriesDescription& series, std::size_t frame) {
     name << (series.name.empty() ? "samples" : series.name) << '.' << std::setw(4) << std::setfill('0')
          << frame;
     return name.str();
+}
+
+std::string heightsGridName(const SeriesDescription& series, std::size_t frame) {
+    return gridName(series, frame) + ".heights";
 }
 
 glm::bvec3 periodicAxes(const Lattice& lattice) {
@@ -152,28 +197,36 @@ SeriesDescription writeSeries(FrameSource& source, const std::filesystem::path& 
     std::vector<float> samples(static_cast<std::size_t>(dims.x) * dims.y * dims.z);
     const auto fates = allFates(source, options, samples);
 
+    std::optional<HeightsWriter> heights;
+    if (series.lattice.heights) heights.emplace(series);
+
     openvdb::GridPtrVec grids;
     const std::size_t count = series.time.times.size();
     for (std::size_t i = 0; i < count; ++i) {
         source.read(i, samples);
-        auto grid = makeSparseGrid(dims, samples, options.tolerance, fates[i]);
-        grid->setName(gridName(series, i));
-        grid->setTransform(transformOf(series.lattice));
-        grid->insertMeta("isoglass.time", openvdb::DoubleMetadata(series.time.times[i]));
-        const auto keyFrame =
-            makeKeyFrame(*grid, dims, periodicAxes(series.lattice), series.inactiveIsMissing);
-        series.frames.push_back(describeFrame(*grid, *keyFrame, samples));
+        const auto grid = nameGrid(makeSparseGrid(dims, samples, options.tolerance, fates[i]),
+                                   gridName(series, i), series, i);
         grids.push_back(grid);
+        std::shared_ptr<const KeyFrame> heightFrame;
+        if (heights) heightFrame = heights->add(source, i, samples, grids);
+        const auto keyFrame =
+            makeKeyFrame(*grid, dims, periodicAxes(series.lattice), series.inactiveIsMissing, heightFrame);
+        series.frames.push_back(describeFrame(*grid, *keyFrame, samples));
         if (progress) progress(i + 1, count);
     }
+    if (heights) heights->finish(*series.lattice.heights);
 
     saveSeries(series, grids, file, out);
     return series;
 }
 
-std::shared_ptr<const KeyFrame> makeKeyFrame(const Lattice& lattice, std::span<const float> samples) {
-    return makeKeyFrame(*makeSparseGrid(lattice.dims(), samples, 0), lattice.dims(), periodicAxes(lattice),
-                        true);
+std::shared_ptr<const KeyFrame> makeKeyFrame(const Lattice& lattice, std::span<const float> samples,
+                                             std::span<const float> heights) {
+    const glm::ivec3 dims = lattice.dims();
+    const glm::bvec3 periodic = periodicAxes(lattice);
+    std::shared_ptr<const KeyFrame> heightFrame;
+    if (!heights.empty()) heightFrame = makeKeyFrame(*makeSparseGrid(dims, heights, 0), dims, periodic, true);
+    return makeKeyFrame(*makeSparseGrid(dims, samples, 0), dims, periodic, true, std::move(heightFrame));
 }
 
 }  // namespace isoglass

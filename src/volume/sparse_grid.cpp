@@ -200,7 +200,8 @@ openvdb::FloatGrid::Ptr makeSparseGrid(glm::ivec3 dims, std::span<const float> s
 }
 
 std::shared_ptr<const KeyFrame> makeKeyFrame(const openvdb::FloatGrid& grid, glm::ivec3 dims,
-                                             glm::bvec3 periodic, bool inactiveIsMissing) {
+                                             glm::bvec3 periodic, bool inactiveIsMissing,
+                                             std::shared_ptr<const KeyFrame> heights) {
     TableBuilder table(dims, inactiveIsMissing, grid.background());
     auto tile = grid.tree().cbeginValueAll();
     tile.setMaxDepth(openvdb::FloatTree::ValueAllCIter::LEAF_DEPTH - 1);
@@ -214,7 +215,7 @@ std::shared_ptr<const KeyFrame> makeKeyFrame(const openvdb::FloatGrid& grid, glm
     table.pool.samples.shrink_to_fit();
     table.pointIntoPool();
     return std::make_shared<KeyFrame>(dims, periodic, std::move(table.pool), std::move(table.bricks),
-                                      std::move(table.index));
+                                      std::move(table.index), std::move(heights));
 }
 
 }  // namespace isoglass

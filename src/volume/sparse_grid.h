@@ -21,8 +21,10 @@ namespace isoglass {
 openvdb::FloatGrid::Ptr makeSparseGrid(glm::ivec3 dims, std::span<const float> samples, double tolerance,
                                        std::span<const BrickFate> fates = {});
 
-/// Copies the samples of `grid` into a key frame. Index (0,0,0) of the tree is sample (0,0,0).
+/// Copies the samples of `grid` into a key frame, with `heights`. Index (0,0,0) of the tree is sample
+/// (0,0,0).
 std::shared_ptr<const KeyFrame> makeKeyFrame(const openvdb::FloatGrid& grid, glm::ivec3 dims,
-                                             glm::bvec3 periodic, bool inactiveIsMissing);
+                                             glm::bvec3 periodic, bool inactiveIsMissing,
+                                             std::shared_ptr<const KeyFrame> heights = nullptr);
 
 }  // namespace isoglass
