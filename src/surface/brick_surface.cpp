@@ -2,6 +2,7 @@
 
 #include "surface/brick_vertex.h"
 #include "surface/cell_table.h"
+#include "surface/height_vertex.h"
 
 #include <bit>
 #include <cmath>
@@ -234,6 +235,19 @@ constexpr std::array<int, kCellEdges> makeEdgeSlots() {
     return slots;
 }
 
+template <typename Maker>
+void makeAllVertices(const BrickRecord& record, const Maker& maker, VertexBuffer& out) {
+    constexpr std::array<int, kEdgeKinds> kDirections = {1, 2, 4, 7};
+    for (int row = 0; row < kBrickSize * kBrickSize; ++row) {
+        for (int kind = 0; kind < kEdgeKinds; ++kind) {
+            for (std::uint32_t edges = record.edges[row][kind]; edges; edges &= edges - 1) {
+                const glm::ivec3 low(row / kBrickSize, row % kBrickSize, std::countr_zero(edges));
+                maker.make(low, kDirections[kind], out);
+            }
+        }
+    }
+}
+
 }  // namespace
 
 void classifyBrick(const IndexSpace& space, glm::ivec3 brick, const BrickField& field, float iso,
@@ -249,17 +263,12 @@ void classifyBrick(const IndexSpace& space, glm::ivec3 brick, const BrickField& 
     count(record);
 }
 
-void makeVertices(const IndexSpace& space, const BrickRecord& record, const BrickField& field, float iso,
-                  VertexBuffer& out) {
-    constexpr std::array<int, kEdgeKinds> kDirections = {1, 2, 4, 7};
-    const VertexMaker maker(space, record.brick, field, iso);
-    for (int row = 0; row < kBrickSize * kBrickSize; ++row) {
-        for (int kind = 0; kind < kEdgeKinds; ++kind) {
-            for (std::uint32_t edges = record.edges[row][kind]; edges; edges &= edges - 1) {
-                const glm::ivec3 low(row / kBrickSize, row % kBrickSize, std::countr_zero(edges));
-                maker.make(low, kDirections[kind], out);
-            }
-        }
+void makeVertices(const IndexSpace& space, const BrickRecord& record, const BrickField& field,
+                  const BrickField* heights, float iso, VertexBuffer& out) {
+    if (heights) {
+        makeAllVertices(record, HeightVertexMaker(space, record.brick, field, *heights, iso), out);
+    } else {
+        makeAllVertices(record, VertexMaker(space, record.brick, field, iso), out);
     }
 }
 

@@ -46,9 +46,10 @@ struct VertexBuffer {
 void classifyBrick(const IndexSpace& space, glm::ivec3 brick, const BrickField& field, float iso,
                    BrickRecord& record);
 
-/// Appends the brick's vertices in their order.
-void makeVertices(const IndexSpace& space, const BrickRecord& record, const BrickField& field, float iso,
-                  VertexBuffer& out);
+/// Appends the brick's vertices in their order. `heights` are the gathered world z of the samples, null where
+/// the axis table of `space` says it.
+void makeVertices(const IndexSpace& space, const BrickRecord& record, const BrickField& field,
+                  const BrickField* heights, float iso, VertexBuffer& out);
 
 /// Writes the brick's triangles to `out` (3 * triangleCount indices). `neighbours[k]` is the record of
 /// the next brick along x (bit 0 of k), y (bit 1), z (bit 2), or null where the surface does not touch

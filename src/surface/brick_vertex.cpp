@@ -44,19 +44,26 @@ glm::dvec3 VertexMaker::world(glm::ivec3 sample) const {
 }
 
 void VertexMaker::make(glm::ivec3 low, int direction, VertexBuffer& out) const {
-    const glm::ivec3 high = low + glm::ivec3(direction & 1, direction >> 1 & 1, direction >> 2);
-    // In double the difference of two floats neither overflows nor vanishes, so t is in [0,1] for any
-    // finite ends on different sides of the iso-value.
-    const double lowValue = field_.values[BrickField::at(low.x, low.y, low.z)];
-    const double difference = field_.values[BrickField::at(high.x, high.y, high.z)] - lowValue;
-    const double t = (static_cast<double>(iso_) - lowValue) / difference;
+    const glm::ivec3 high = low + edgeVector(direction);
+    const EdgeCrossing crossing(field_, low, high, iso_);
     const glm::dvec3 lowWorld = world(low);
     const glm::dvec3 edge = world(high) - lowWorld;
-    out.positions.emplace_back(lowWorld + t * edge);
+    out.positions.emplace_back(lowWorld + crossing.t * edge);
+    out.normals.push_back(edgeBlendedNormal(gradient(low), gradient(high), crossing, edge));
+}
 
-    const glm::vec3 lowGradient = gradient(low);
-    const glm::vec3 normal = -(lowGradient + static_cast<float>(t) * (gradient(high) - lowGradient));
-    out.normals.push_back(usable(normal) ? normal : edgeNormal(difference, edge));
+EdgeCrossing::EdgeCrossing(const BrickField& field, glm::ivec3 low, glm::ivec3 high, float iso) {
+    // In double the difference of two floats neither overflows nor vanishes, so t is in [0,1] for any
+    // finite ends on different sides of the iso-value.
+    const double lowValue = field.values[BrickField::at(low.x, low.y, low.z)];
+    difference = field.values[BrickField::at(high.x, high.y, high.z)] - lowValue;
+    t = (static_cast<double>(iso) - lowValue) / difference;
+}
+
+glm::vec3 edgeBlendedNormal(glm::vec3 lowGradient, glm::vec3 highGradient, const EdgeCrossing& crossing,
+                            glm::dvec3 edge) {
+    const glm::vec3 normal = -(lowGradient + static_cast<float>(crossing.t) * (highGradient - lowGradient));
+    return usable(normal) ? normal : edgeNormal(crossing.difference, edge);
 }
 
 glm::vec3 edgeNormal(double difference, glm::dvec3 edge) {

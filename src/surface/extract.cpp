@@ -78,9 +78,25 @@ Selection selectBricks(const IndexSpace& space, const TimedField& field, const E
     return all;
 }
 
+/// Heights that one side has and the other lacks would put the surface somewhere else.
+void requireHeights(const Lattice& lattice, const TimedField& field) {
+    for (const auto& frame : {field.a, field.b}) {
+        if (frame && (frame->heights() != nullptr) != lattice.heights.has_value())
+            throw std::invalid_argument("lattice and key frames do not agree on heights");
+    }
+}
+
 glm::ivec3 brickPosition(const IndexSpace& space, std::uint32_t linear) {
     return {linear % space.bricks.x, linear / space.bricks.x % space.bricks.y,
             linear / (static_cast<std::uint32_t>(space.bricks.x) * space.bricks.y)};
+}
+
+/// The heights of the samples at the time of `field`; nothing where the axis table says them.
+std::optional<TimedField> heightsOf(const TimedField& field) {
+    const KeyFrame& any = field.a ? *field.a : *field.b;
+    if (!any.heights()) return std::nullopt;
+    return TimedField{field.a ? field.a->heights() : nullptr, field.b ? field.b->heights() : nullptr,
+                      field.fraction};
 }
 
 /// First pass: every touched brick is gathered once, classified, and its vertices are made.
@@ -88,11 +104,13 @@ void makeRecords(const IndexSpace& space, const TimedField& field, const Extract
                  const Selection& selection, std::vector<BrickRecord>& records,
                  std::vector<VertexBuffer>& buffers) {
     const float sign = options.insideIsBelow ? -1.0f : 1.0f;
+    const std::optional<TimedField> heightsInTime = heightsOf(field);
     records.resize(selection.bricks.size());
     buffers.resize((records.size() + kBricksPerTask - 1) / kBricksPerTask);
     parallelFor(records.size(), kBricksPerTask, options.threads, [&](std::size_t begin, std::size_t end) {
         BrickField gathered;
         BrickField scratch;
+        BrickField heights;
         VertexBuffer& buffer = buffers[begin / kBricksPerTask];
         buffer.positions.reserve(kVerticesPerTask);
         buffer.normals.reserve(kVerticesPerTask);
@@ -100,7 +118,9 @@ void makeRecords(const IndexSpace& space, const TimedField& field, const Extract
             const glm::ivec3 brick = brickPosition(space, selection.bricks[i]);
             gatherBrick(space, field, brick, sign, scratch, gathered);
             classifyBrick(space, brick, gathered, sign * options.iso, records[i]);
-            makeVertices(space, records[i], gathered, sign * options.iso, buffer);
+            if (heightsInTime) gatherBrick(space, *heightsInTime, brick, 1, scratch, heights);
+            makeVertices(space, records[i], gathered, heightsInTime ? &heights : nullptr, sign * options.iso,
+                         buffer);
         }
     });
 }
@@ -164,7 +184,9 @@ void writeMesh(const IndexSpace& space, const ExtractOptions& options, const Sel
 }  // namespace
 
 Extraction extractSurface(const Lattice& lattice, const TimedField& field, const ExtractOptions& options) {
-    if (options.view && options.view->wantsDetail()) return extractForView(lattice, field, options);
+    requireHeights(lattice, field);
+    const bool wantsDetail = options.view && options.view->wantsDetail();
+    if (wantsDetail && !lattice.heights) return extractForView(lattice, field, options);
     const IndexSpace space(lattice);
     const Selection selection = selectBricks(space, field, options);
     Extraction result;

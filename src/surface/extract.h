@@ -22,7 +22,8 @@ struct ExtractOptions {
     /// The surface separates f >= iso (inside) from the rest; compared as float, like the samples.
     float iso = 0;
     bool insideIsBelow = false;  ///< inside is f <= iso instead
-    /// From where the mesh will be seen; full resolution where not given, or where it asks for none less.
+    /// From where the mesh will be seen; full resolution where not given, where it asks for none less, and
+    /// where the lattice has heights.
     std::optional<View> view = {};
     int threads = 0;  ///< 0 takes all cores; the mesh does not depend on it
 };
@@ -48,13 +49,14 @@ struct Extraction {
 /// A vertex stands for one lattice edge, so the mesh is an oriented 2-manifold by vertex index whatever
 /// the samples are; its boundary lies where the domain ends or samples are missing. One exception: where
 /// of the four cells around an edge only two opposite ones have all samples, two fans share the edge's
-/// vertex: still a manifold by edge. Positions are world coordinates by the axis tables of `lattice`, normals
+/// vertex: still a manifold by edge. Positions are world coordinates by the axis tables of `lattice`, or by
+/// the heights that the key frames bring where it has them, linear in time like the field; normals
 /// come from central differences in world space (one-sided beside the domain's end and missing samples).
 /// Zero-area triangles, where samples equal the iso-value, stay. Cost follows the bricks that the surface
 /// touches.
 ///
 /// Pure: any number of calls may run at once. The same arguments give the same bytes for any `threads`.
-/// Both key frames must be of `lattice`.
+/// Both key frames must be of `lattice`, and have heights where it has them.
 Extraction extractSurface(const Lattice& lattice, const TimedField& field, const ExtractOptions& options);
 
 }  // namespace isoglass

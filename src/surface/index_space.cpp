@@ -57,20 +57,18 @@ int IndexSpace::storedIndex(int axis, int i) const {
 glm::dvec3 meshOrigin(const Lattice& lattice) {
     constexpr double kResolvedPart = 1.0 / 1024;
     bool fine = true;
-    for (const Axis& axis : lattice.axes) {
-        double largest = 0;
+    const auto corners = lattice.bounds();
+    for (int k = 0; k < 3; ++k) {
+        const Axis& axis = lattice.axes[k];
+        double largest = std::max(std::abs(corners[0][k]), std::abs(corners[1][k]));
         double smallestStep = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i <= axis.cells(); ++i) {
-            largest = std::max(largest, std::abs(axis.coordinate(i)));
-            if (i > 0)
-                smallestStep = std::min(smallestStep, std::abs(axis.coordinate(i) - axis.coordinate(i - 1)));
-        }
+        for (std::size_t i = 1; i <= axis.cells(); ++i)
+            smallestStep = std::min(smallestStep, std::abs(axis.coordinate(i) - axis.coordinate(i - 1)));
         fine = fine && largest * std::numeric_limits<float>::epsilon() <= smallestStep * kResolvedPart;
     }
     if (fine) return glm::dvec3(0);
-    const auto bounds = lattice.bounds();
     glm::dvec3 middle;
-    for (int k = 0; k < 3; ++k) middle[k] = std::round(0.5 * (bounds[0][k] + bounds[1][k]));
+    for (int k = 0; k < 3; ++k) middle[k] = std::round(0.5 * (corners[0][k] + corners[1][k]));
     return middle;
 }
 
