@@ -41,7 +41,9 @@ void addImport(CLI::App& app, std::function<void()>& run) {
     verb->add_option("INPUT", command->inputs, "One NetCDF file, or PVM files, one a key frame")->required();
     verb->add_option("-o,--output", command->out, "The series to write (.vdb)")->required();
     verb->add_option("--variable", command->options.variable,
-                     "The variable to read, where there are several");
+                     "The variable to read, or a formula of several, such as 'speed = sqrt(U^2 + V^2)'");
+    verb->add_option("--height", command->options.height,
+                     "Variable or formula of the samples' world z, such as '(PH + PHB) / 9.81'");
     verb->add_option("--times", command->options.times, "Times of the key frames, instead of the source's")
         ->delimiter(',');
     verb->add_option("--tolerance", command->sparsity.tolerance,

@@ -41,6 +41,9 @@ void runImport(const ImportCommand& command) {
         throw Error("a series has the extension .vdb", command.out.string(), "name it so");
     }
     const auto source = openSource(command);
+    if (!command.options.height.empty() && !source->description().lattice.heights) {
+        throw Error("only NetCDF files have heights", "--height", "leave it out");
+    }
     for (const std::string& note : source->description().notes) printNote(note);
     const auto frames = static_cast<std::int64_t>(source->description().time.times.size());
     SeriesDescription series;

@@ -37,7 +37,7 @@ Totals addUp(const SeriesDescription& series) {
         totals.valid += static_cast<double>(frame.validSamples);
         totals.active += static_cast<double>(frame.activeVoxels);
         totals.bytes += frame.bytes;
-        totals.bytesDense += perFrame * sizeof(float);
+        totals.bytesDense += perFrame * sizeof(float) * (series.lattice.heights ? 2 : 1);
     }
     return totals;
 }
@@ -53,6 +53,17 @@ Json axisJson(const Axis& axis) {
     json["period"] = axis.period ? Json(*axis.period) : Json(nullptr);
     json["coordinates"] = axis.coordinates;
     return json;
+}
+
+Json heightsJson(const Lattice& lattice) {
+    if (!lattice.heights) return nullptr;
+    const HeightField& heights = *lattice.heights;
+    return {{"name", heights.name}, {"units", heights.units}, {"range", {heights.min, heights.max}}};
+}
+
+Json boundsJson(const Lattice& lattice) {
+    const auto [low, high] = lattice.bounds();
+    return {{low.x, low.y, low.z}, {high.x, high.y, high.z}};
 }
 
 Json seriesJson(const SeriesFile& file) {
@@ -78,6 +89,8 @@ Json seriesJson(const SeriesFile& file) {
     json["keep"] = series.keep ? Json({series.keep->min, series.keep->max}) : Json(nullptr);
     json["provenance"] = series.provenance;
     json["notes"] = series.notes;
+    json["heights"] = heightsJson(series.lattice);
+    json["bounds"] = boundsJson(series.lattice);
     json["axes"] = Json::array();
     for (const Axis& axis : series.lattice.axes) json["axes"].push_back(axisJson(axis));
     return json;
@@ -129,6 +142,11 @@ void printSeries(const SeriesFile& file) {
     }
     printTimes(series.time);
     for (int k = 0; k < 3; ++k) printAxis(static_cast<char>('x' + k), series.lattice.axes[k]);
+    if (const auto& heights = series.lattice.heights) {
+        std::cout << "  heights   " << heights->name << ": " << formatNumber(heights->min) << " to "
+                  << formatNumber(heights->max) << (heights->units.empty() ? "" : " " + heights->units)
+                  << ", one a sample and key frame\n";
+    }
     std::cout << "  missing   " << percent(1 - totals.valid / totals.samples) << " of the samples; "
               << percent(totals.active / totals.samples) << " are stored one by one\n";
     std::cout << "  memory    " << formatBytes(totals.bytes) << " against " << formatBytes(totals.bytesDense)

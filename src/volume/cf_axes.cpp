@@ -134,6 +134,39 @@ std::string formatted(double value) {
     return text.str();
 }
 
+/// Step of WRF's projected grid along a dimension, in metres; nothing for other dimensions and files.
+std::optional<double> projectedStep(const NetcdfFile& file, const std::string& dimension) {
+    const char* attribute = dimension == "west_east" ? "DX" : dimension == "south_north" ? "DY" : nullptr;
+    if (!attribute) return std::nullopt;
+    const std::vector<double> step = file.globalNumbers(attribute);
+    if (step.size() != 1 || !std::isfinite(step[0]) || !(step[0] > 0)) return std::nullopt;
+    return step[0];
+}
+
+Axis countedAxis(const NetcdfFile& file, const CentredDimension& dimension, std::vector<std::string>& notes) {
+    const std::optional<double> step = projectedStep(file, dimension.name);
+    Axis axis;
+    axis.name = dimension.name;
+    if (step) axis.units = "m";
+    for (std::size_t i = 0; i < dimension.length; ++i)
+        axis.coordinates.push_back(static_cast<double>(i) * step.value_or(1));
+    const std::string missing = "Axis " + axis.name + " has no coordinates in the source: they are ";
+    if (step) {
+        notes.push_back(missing + "metres on the model's map projection, " + formatted(*step) +
+                        " a step, from the first sample.");
+    } else {
+        notes.push_back(missing + "the sample numbers 0 to " + std::to_string(dimension.length - 1) + ".");
+    }
+    return axis;
+}
+
+/// From the faces to the centres between them.
+void centre(std::vector<double>& coordinates) {
+    for (std::size_t i = 0; i + 1 < coordinates.size(); ++i)
+        coordinates[i] = 0.5 * (coordinates[i] + coordinates[i + 1]);
+    coordinates.pop_back();
+}
+
 }  // namespace
 
 std::optional<double> numericModulo(const NetcdfFile& file, const NetcdfVariable& variable) {
@@ -158,9 +191,10 @@ std::optional<GridShape> findShape(const NetcdfFile& file, const NetcdfVariable&
     for (std::size_t position = 0; position < variable.dimensions.size(); ++position) {
         const int dimension = variable.dimensions[position];
         shape.coordinates.push_back(coordinatesOf(file, variable, dimension));
+        shape.dimensions.push_back(centredDimension(file, variable, position));
         const NetcdfVariable* coordinate = shape.coordinates.back();
         const Role role = roleOf(file, dimension, coordinate);
-        if (file.dimension(dimension).length == 1 && role != Role::time) continue;
+        if (shape.dimensions.back().length == 1 && role != Role::time) continue;
         if (role == Role::unknown)
             unlabelled.push_back(position);
         else if (taken[static_cast<std::size_t>(role)] == kFree)
@@ -174,31 +208,24 @@ std::optional<GridShape> findShape(const NetcdfFile& file, const NetcdfVariable&
         *free = unlabelled.back();
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (taken[axis] == kFree || file.dimension(variable.dimensions[taken[axis]]).length < 2)
-            return std::nullopt;
+        if (taken[axis] == kFree || shape.dimensions[taken[axis]].length < 2) return std::nullopt;
         shape.axes[axis] = taken[axis];
     }
     if (taken[3] != kFree) shape.time = taken[3];
     return shape;
 }
 
-Axis readAxis(const NetcdfFile& file, const NetcdfVariable& variable, const GridShape& shape,
-              std::size_t position, std::vector<std::string>& notes) {
-    const NetcdfDimension& dimension = file.dimension(variable.dimensions[position]);
+Axis readAxis(const NetcdfFile& file, const GridShape& shape, std::size_t position,
+              std::vector<std::string>& notes) {
+    const CentredDimension& dimension = shape.dimensions[position];
     const NetcdfVariable* coordinate = shape.coordinates[position];
+    if (!coordinate) return countedAxis(file, dimension, notes);
     Axis axis;
-    if (!coordinate) {
-        axis.name = dimension.name;
-        for (std::size_t i = 0; i < dimension.length; ++i) axis.coordinates.push_back(static_cast<double>(i));
-        notes.push_back("Axis " + axis.name +
-                        " has no coordinates in the source: they are the sample numbers 0 to " +
-                        std::to_string(dimension.length - 1) + ".");
-        return axis;
-    }
-    axis.name = coordinate->name;
+    axis.name = dimension.staggered ? dimension.name : coordinate->name;
     axis.units = file.text(*coordinate, "units").value_or("");
     axis.coordinates = file.values(*coordinate);
     requireMonotonic(file, *coordinate, axis.coordinates);
+    if (dimension.staggered) centre(axis.coordinates);
     axis.period = circleOf(file, *coordinate, axis.coordinates);
     if (axis.period)
         notes.push_back("Axis " + axis.name + " is a whole circle: it repeats after " +

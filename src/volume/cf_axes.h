@@ -2,6 +2,7 @@
 
 #include "volume/lattice.h"
 #include "volume/netcdf_file.h"
+#include "volume/staggering.h"
 
 #include <array>
 #include <cstddef>
@@ -16,6 +17,7 @@ namespace isoglass {
 struct GridShape {
     std::array<std::size_t, 3> axes;  ///< of x, y, z; each is longer than one sample
     std::optional<std::size_t> time;
+    std::vector<CentredDimension> dimensions;  ///< all of the variable's, at the cell centres
     /// The variable with the coordinates of each dimension, null where there is none.
     std::vector<const NetcdfVariable*> coordinates;
 };
@@ -27,11 +29,13 @@ struct GridShape {
 /// variable is not numeric or has no three axes longer than one sample.
 std::optional<GridShape> findShape(const NetcdfFile& file, const NetcdfVariable& variable);
 
-/// Reads the coordinates of the dimension at `position`, or counts the samples where there are none.
+/// Reads the coordinates of the dimension at `position`, or counts the samples where there are none: in
+/// metres where the file has the step of WRF's projected grid (attributes `DX`, `DY`). Those of a staggered
+/// dimension are brought to the centres.
 /// Negates an axis that points down, makes a whole circle periodic, keeps a descending axis. Adds a
 /// sentence to `notes` for each. Throws Error where coordinates are not finite or not strictly monotonic.
-Axis readAxis(const NetcdfFile& file, const NetcdfVariable& variable, const GridShape& shape,
-              std::size_t position, std::vector<std::string>& notes);
+Axis readAxis(const NetcdfFile& file, const GridShape& shape, std::size_t position,
+              std::vector<std::string>& notes);
 
 /// The attribute `modulo` of a coordinate variable as a number, whether it is stored as one or as text.
 /// Nothing where it is not finite and positive.

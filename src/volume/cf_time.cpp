@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "volume/calendar.h"
 #include "volume/import_times.h"
+#include "volume/wrf_times.h"
 
 #include <cmath>
 #include <cstddef>
@@ -47,6 +48,10 @@ void readClock(const NetcdfFile& file, const NetcdfVariable& coordinate, TimeAxi
         axis.units.clear();
         axis.calendar.clear();
     }
+}
+
+bool hasReferenceDate(const NetcdfFile& file, const NetcdfVariable& coordinate) {
+    return file.text(coordinate, "units").value_or("").find(" since ") != std::string::npos;
 }
 
 std::optional<double> yearLength(const TimeAxis& axis) {
@@ -97,6 +102,14 @@ TimeAxis readTimeAxis(const NetcdfFile& file, const NetcdfVariable& variable, co
         throw Error(std::to_string(frames) + " time steps are too many", file.place(variable));
 
     std::string place = file.place(coordinate ? *coordinate : variable);
+    const bool dated = coordinate && hasReferenceDate(file, *coordinate);
+    if (shape.time && !dated && replacement.empty()) {
+        const auto dates = readWrfTimes(file, variable.dimensions[*shape.time], notes);
+        if (dates) {
+            requireTimes(dates->times, frames, file.path().string() + ", variable Times");
+            return *dates;
+        }
+    }
     if (!replacement.empty()) {
         axis.times = replacement;
         place = "--times";

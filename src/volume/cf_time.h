@@ -10,7 +10,7 @@
 namespace isoglass {
 
 /// Reads the times of a variable's key frames: one, at 0, where it has no time dimension; 0, 1, 2, ...
-/// where that has no coordinates.
+/// where that has no coordinates. Where those have no dates, WRF's character variable `Times` gives them.
 ///
 /// `replacement`, if not empty, takes the place of the times; units, calendar and cycle stay. A time axis
 /// is cyclic where it has the attribute `modulo` or (CF section 7.4) `climatology`: the period is the

@@ -34,13 +34,18 @@ class FrameSource {
 inline constexpr float kLargestValue = 1.7e38f;
 
 struct ImportOptions {
-    std::string variable;       ///< which variable to read; empty takes the only one that has the shape
+    /// Which variable to read, or a formula over several (see expression.h), as "EXPRESSION" or
+    /// "NAME = EXPRESSION"; empty takes the only variable that has the shape.
+    std::string variable;
     std::vector<double> times;  ///< replaces the times of the source, one a key frame; empty keeps them
+    std::string height = {};    ///< like `variable`, the world z of the samples; empty takes the z axis
 };
 
 /// Opens a NetCDF file by the CF conventions: time units and calendar (year 0, climatologies, modulo
-/// axes), `_FillValue` / `missing_value` / `valid_range`, packed data (`scale_factor`, `add_offset`),
-/// ascending, descending and rectilinear axes, `positive: down`, periodic longitude. Throws Error.
+/// axes; dates in WRF's `Times`), `_FillValue` / `missing_value` / `valid_range`, packed data
+/// (`scale_factor`, `add_offset`), ascending, descending and rectilinear axes, `positive: down`, periodic
+/// longitude. WRF's staggered variables are brought to the cell centres, formulas are evaluated there. Throws
+/// Error.
 std::unique_ptr<FrameSource> openNetcdf(const std::filesystem::path& file, const ImportOptions& options);
 
 /// Opens a sequence of PVM files, one key frame each, in the order given (header `PVM`, dims, bytes

@@ -15,6 +15,7 @@ namespace {
 
 /// Longest axis whose coordinates are read; a header may announce any length in a few bytes.
 constexpr std::size_t kLongestTable = std::size_t{1} << 24;
+constexpr std::size_t kLongestRow = 256;
 
 std::string trimmed(std::string text) {
     constexpr const char* kBlanks = " \t\n\r";
@@ -113,14 +114,37 @@ bool NetcdfFile::has(const NetcdfVariable& variable, const std::string& attribut
     return nc_inq_attid(id_, variable.id, attribute.c_str(), nullptr) == NC_NOERR;
 }
 
-std::vector<double> NetcdfFile::numbers(const NetcdfVariable& variable, const std::string& attribute) const {
+std::vector<double> NetcdfFile::numbersOf(int variableId, const std::string& attribute,
+                                          const std::string& where) const {
     nc_type type = NC_NAT;
     std::size_t length = 0;
-    if (nc_inq_att(id_, variable.id, attribute.c_str(), &type, &length) != NC_NOERR) return {};
+    if (nc_inq_att(id_, variableId, attribute.c_str(), &type, &length) != NC_NOERR) return {};
     if (type == NC_CHAR || type > NC_UINT64) return {};
     std::vector<double> values(length);
-    check(nc_get_att_double(id_, variable.id, attribute.c_str(), values.data()), variable);
+    const int status = nc_get_att_double(id_, variableId, attribute.c_str(), values.data());
+    if (status != NC_NOERR) throw Error(nc_strerror(status), where, "the file may be damaged");
     return values;
+}
+
+std::vector<double> NetcdfFile::numbers(const NetcdfVariable& variable, const std::string& attribute) const {
+    return numbersOf(variable.id, attribute, place(variable));
+}
+
+std::vector<double> NetcdfFile::globalNumbers(const std::string& attribute) const {
+    return numbersOf(NC_GLOBAL, attribute, path_.string());
+}
+
+std::vector<std::string> NetcdfFile::rows(const NetcdfVariable& variable) const {
+    const std::size_t count = dimension(variable.dimensions.at(0)).length;
+    const std::size_t length = dimension(variable.dimensions.at(1)).length;
+    if (length > kLongestRow || count > kLongestTable / kLongestRow)
+        throw Error(std::to_string(count) + " rows of " + std::to_string(length) + " characters are too many",
+                    place(variable));
+    std::string text(count * length, '\0');
+    if (!text.empty()) check(nc_get_var_text(id_, variable.id, text.data()), variable);
+    std::vector<std::string> rows;
+    for (std::size_t i = 0; i < count; ++i) rows.push_back(trimmed(text.substr(i * length, length)));
+    return rows;
 }
 
 std::vector<double> NetcdfFile::values(const NetcdfVariable& variable) const {

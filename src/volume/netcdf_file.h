@@ -46,8 +46,13 @@ class NetcdfFile {
     /// Values of a numeric attribute; empty where it is absent or text.
     std::vector<double> numbers(const NetcdfVariable& variable, const std::string& attribute) const;
 
+    std::vector<double> globalNumbers(const std::string& attribute) const;
+
     /// All values of a numeric variable with one dimension, unpacked.
     std::vector<double> values(const NetcdfVariable& variable) const;
+
+    /// The rows of a variable of characters with two dimensions. Throws Error where a row is longer than 256.
+    std::vector<std::string> rows(const NetcdfVariable& variable) const;
 
     /// Throws Error about `variable` where `status` is a failure of the library.
     void check(int status, const NetcdfVariable& variable) const;
@@ -58,6 +63,8 @@ class NetcdfFile {
   private:
     void check(int status) const;
     std::optional<std::string> textOf(int variableId, const std::string& attribute) const;
+    std::vector<double> numbersOf(int variableId, const std::string& attribute,
+                                  const std::string& where) const;
 
     std::filesystem::path path_;
     int id_ = -1;

@@ -1,15 +1,14 @@
 #include "base/error.h"
 #include "volume/cf_axes.h"
-#include "volume/cf_packing.h"
 #include "volume/cf_time.h"
 #include "volume/frame_source.h"
+#include "volume/heights.h"
+#include "volume/netcdf_field.h"
 #include "volume/netcdf_file.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
-#include <sstream>
-#include <unordered_set>
+#include <vector>
 
 namespace isoglass {
 
@@ -18,51 +17,11 @@ namespace {
 /// A header announces any size in a few bytes; beyond these it is not believed.
 constexpr std::size_t kLongestAxis = std::size_t{1} << 20;
 constexpr std::size_t kMostSamples = std::size_t{1} << 34;
-/// Samples read at a time: the file's own type and the transposition need a copy of them.
-constexpr std::size_t kSlabSamples = std::size_t{1} << 24;
 
-/// "TEMP(TIME, Z, Y, X)".
-std::string signature(const NetcdfFile& file, const NetcdfVariable& variable) {
-    std::string text = variable.name + "(";
-    for (std::size_t i = 0; i < variable.dimensions.size(); ++i)
-        text += (i > 0 ? ", " : "") + file.dimension(variable.dimensions[i]).name;
-    return text + ")";
-}
-
-/// Names that other variables refer to: coordinates and cell bounds are not data.
-std::unordered_set<std::string> auxiliaryNames(const NetcdfFile& file) {
-    std::unordered_set<std::string> names;
-    for (const NetcdfVariable& variable : file.variables())
-        for (const char* attribute : {"bounds", "climatology", "coordinates"}) {
-            std::istringstream words(file.text(variable, attribute).value_or(""));
-            for (std::string word; words >> word;) names.insert(word);
-        }
-    return names;
-}
-
-std::vector<const NetcdfVariable*> findVolumes(const NetcdfFile& file) {
-    const std::unordered_set<std::string> auxiliary = auxiliaryNames(file);
-    std::vector<const NetcdfVariable*> volumes;
-    for (const NetcdfVariable& variable : file.variables())
-        if (!auxiliary.contains(variable.name) && findShape(file, variable)) volumes.push_back(&variable);
-    return volumes;
-}
-
-std::string listed(const NetcdfFile& file, const std::vector<const NetcdfVariable*>& variables) {
-    std::string text;
-    for (const NetcdfVariable* variable : variables)
-        text += (text.empty() ? "" : ", ") + signature(file, *variable);
-    return text.empty() ? "none" : text;
-}
-
-const NetcdfVariable& selectVariable(const NetcdfFile& file, const std::string& name) {
+NetcdfFormula selectFormula(const NetcdfFile& file, const std::string& text) {
+    if (!text.empty()) return readFormula(file, text, "--variable");
     const std::vector<const NetcdfVariable*> volumes = findVolumes(file);
-    if (!name.empty()) {
-        if (const NetcdfVariable* variable = file.find(name)) return *variable;
-        throw Error("no variable \"" + name + "\"", file.path().string(),
-                    "volumes in the file: " + listed(file, volumes));
-    }
-    if (volumes.size() == 1) return *volumes.front();
+    if (volumes.size() == 1) return {volumes.front()->name, volumes.front()->name, volumes, std::nullopt};
     if (!volumes.empty())
         throw Error("the file has several volumes", file.path().string(),
                     "choose one with --variable: " + listed(file, volumes));
@@ -72,26 +31,41 @@ const NetcdfVariable& selectVariable(const NetcdfFile& file, const std::string& 
                 "variables in the file: " + listed(file, all));
 }
 
-GridShape requireShape(const NetcdfFile& file, const NetcdfVariable& variable) {
-    std::optional<GridShape> shape = findShape(file, variable);
-    if (!shape)
-        throw Error("the variable is no volume: " + signature(file, variable) +
-                        " has not three axes longer than one sample (and time)",
-                    file.place(variable), "volumes in the file: " + listed(file, findVolumes(file)));
+/// The variable that gives the lattice: the first one of the formula that is a volume.
+const NetcdfVariable& referenceOf(const NetcdfFile& file, const NetcdfFormula& formula) {
+    for (const NetcdfVariable* variable : formula.variables)
+        if (findShape(file, *variable)) return *variable;
+    const NetcdfVariable& first = *formula.variables.front();
+    throw Error("the variable is no volume: " + listed(file, {&first}) +
+                    " has not three axes longer than one sample (and time)",
+                file.place(first), "volumes in the file: " + listed(file, findVolumes(file)));
+}
+
+GridShape shapeOf(const NetcdfFile& file, const NetcdfVariable& variable) {
+    GridShape shape = findShape(file, variable).value();
     std::size_t samples = 1;
-    for (const std::size_t position : shape->axes) {
-        const NetcdfDimension& dimension = file.dimension(variable.dimensions[position]);
+    for (const std::size_t position : shape.axes) {
+        const CentredDimension& dimension = shape.dimensions[position];
         if (dimension.length > kLongestAxis || dimension.length > kMostSamples / samples)
             throw Error("the volume is too large: axis " + dimension.name + " has " +
                             std::to_string(dimension.length) + " samples",
                         file.place(variable));
         samples *= dimension.length;
     }
-    return std::move(*shape);
+    return shape;
 }
 
-std::string provenanceOf(const NetcdfFile& file, const NetcdfVariable& variable) {
-    std::string text = file.path().filename().string() + ", NetCDF, variable " + variable.name;
+GridDimensions gridOf(const GridShape& shape) {
+    GridDimensions grid;
+    for (std::size_t k = 0; k < 3; ++k) grid.axes[k] = shape.dimensions[shape.axes[k]];
+    if (shape.time) grid.time = shape.dimensions[*shape.time];
+    return grid;
+}
+
+std::string provenanceOf(const NetcdfFile& file, const NetcdfFormula& formula, const std::string& heights) {
+    std::string text = file.path().filename().string() + ", NetCDF, " +
+                       (formula.isVariable() ? "variable " : "expression ") + formula.text;
+    if (!heights.empty()) text += ", heights " + heights;
     for (const char* attribute : {"title", "source", "history"})
         if (const auto value = file.globalText(attribute); value && !value->empty())
             text += std::string("; ") + attribute + ": " + *value;
@@ -100,80 +74,71 @@ std::string provenanceOf(const NetcdfFile& file, const NetcdfVariable& variable)
 
 class NetcdfSource final : public FrameSource {
   public:
-    NetcdfSource(const std::filesystem::path& path, const ImportOptions& options)
-        : file_(path),
-          variable_(selectVariable(file_, options.variable)),
-          shape_(requireShape(file_, variable_)),
-          reader_(makeSampleReader(file_, variable_)) {
-        description_.name = variable_.name;
-        const auto standardName = file_.text(variable_, "standard_name");
-        description_.longName = file_.text(variable_, "long_name").value_or(standardName.value_or(""));
-        description_.units = file_.text(variable_, "units").value_or("");
-        for (std::size_t i = 0; i < 3; ++i)
-            description_.lattice.axes[i] =
-                readAxis(file_, variable_, shape_, shape_.axes[i], description_.notes);
-        description_.time = readTimeAxis(file_, variable_, shape_, options.times, description_.notes);
-        description_.provenance = provenanceOf(file_, variable_);
-
-        std::size_t stride = 1;
-        for (std::size_t i = 0; i < 3; ++i) {
-            order_[i] = {shape_.axes[i], lengthOf(shape_.axes[i]), stride};
-            stride *= order_[i].length;
-        }
-        std::ranges::sort(order_, {}, &Extent::position);
+    NetcdfSource(const std::filesystem::path& path, const ImportOptions& options) : file_(path) {
+        NetcdfFormula formula = selectFormula(file_, options.variable);
+        const NetcdfVariable& reference = referenceOf(file_, formula);
+        const GridShape shape = shapeOf(file_, reference);
+        field_.emplace(file_, std::move(formula), gridOf(shape));
+        describe(reference, shape, options);
+        description_.provenance =
+            provenanceOf(file_, field_->formula(), heights_ ? heights_->formula().text : "");
     }
 
     const SeriesDescription& description() const override { return description_; }
 
-    void read(std::size_t frame, std::span<float> samples) override {
-        std::vector<std::size_t> start(variable_.dimensions.size(), 0);
-        std::vector<std::size_t> count(variable_.dimensions.size(), 1);
-        if (shape_.time) start[*shape_.time] = frame;
-        const auto& [slow, middle, fast] = order_;
-        count[middle.position] = middle.length;
-        count[fast.position] = fast.length;
-
-        const std::size_t plane = middle.length * fast.length;
-        const std::size_t thickness = std::max<std::size_t>(1, kSlabSamples / plane);
-        for (std::size_t first = 0; first < slow.length; first += thickness) {
-            const std::size_t planes = std::min(thickness, slow.length - first);
-            start[slow.position] = first;
-            count[slow.position] = planes;
-            slab_.resize(planes * plane);
-            reader_->read(start, count, slab_);
-            scatter(first, planes, samples);
-        }
-    }
+    void read(std::size_t frame, std::span<float> samples) override { field_->read(frame, samples); }
+    void readHeights(std::size_t frame, std::span<float> heights) override { heights_->read(frame, heights); }
 
   private:
-    /// One axis as the file stores it: which dimension, how long, and how far apart its neighbours lie in
-    /// a key frame (x fastest).
-    struct Extent {
-        std::size_t position;
-        std::size_t length;
-        std::size_t stride;
-    };
-
-    std::size_t lengthOf(std::size_t position) const {
-        return file_.dimension(variable_.dimensions[position]).length;
+    void describe(const NetcdfVariable& reference, const GridShape& shape, const ImportOptions& options) {
+        const NetcdfFormula& formula = field_->formula();
+        description_.name = formula.name;
+        if (formula.isVariable()) {
+            const auto standardName = file_.text(reference, "standard_name");
+            description_.longName = file_.text(reference, "long_name").value_or(standardName.value_or(""));
+            description_.units = file_.text(reference, "units").value_or("");
+        } else if (formula.text != formula.name) {
+            description_.longName = formula.text;
+        }
+        auto& axes = description_.lattice.axes;
+        for (std::size_t k = 0; k < (options.height.empty() ? 3 : 2); ++k)
+            axes[k] = readAxis(file_, shape, shape.axes[k], description_.notes);
+        description_.time = readTimeAxis(file_, reference, shape, options.times, description_.notes);
+        addNotes(*field_);
+        if (!options.height.empty()) addHeights(gridOf(shape), options.height);
     }
 
-    void scatter(std::size_t first, std::size_t planes, std::span<float> samples) const {
-        const auto& [slow, middle, fast] = order_;
-        const float* sample = slab_.data();
-        for (std::size_t i = first; i < first + planes; ++i)
-            for (std::size_t j = 0; j < middle.length; ++j)
-                for (std::size_t k = 0; k < fast.length; ++k)
-                    samples[i * slow.stride + j * middle.stride + k * fast.stride] = *sample++;
+    /// Opens the formula of the heights and makes the third axis of their means.
+    void addHeights(const GridDimensions& grid, const std::string& text) {
+        heights_.emplace(file_, readFormula(file_, text, "--height"), grid);
+        addNotes(*heights_);
+        const NetcdfFormula& formula = heights_->formula();
+        HeightField heights;
+        heights.name = formula.text;
+        if (formula.isVariable())
+            heights.units = file_.text(*formula.variables.front(), "units").value_or("");
+
+        glm::ivec3 dims;
+        for (int k = 0; k < 3; ++k) dims[k] = static_cast<int>(grid.axes[k].length);
+        std::vector<float> first(static_cast<std::size_t>(dims.x) * dims.y * dims.z);
+        heights_->read(0, first);
+        Axis& axis = description_.lattice.axes[2];
+        axis.name = grid.axes[2].name;
+        axis.units = heights.units;
+        axis.coordinates = meanHeights(dims, first, heights.name);
+        description_.notes.push_back("Samples lie at the heights " + heights.name + ": axis " + axis.name +
+                                     " lists their mean on every level of the first key frame.");
+        description_.lattice.heights = std::move(heights);
+    }
+
+    void addNotes(const NetcdfField& field) {
+        for (std::string& note : field.notes()) description_.notes.push_back(std::move(note));
     }
 
     NetcdfFile file_;
-    const NetcdfVariable& variable_;
-    GridShape shape_;
-    std::unique_ptr<SampleReader> reader_;
+    std::optional<NetcdfField> field_;
+    std::optional<NetcdfField> heights_;
     SeriesDescription description_;
-    std::array<Extent, 3> order_{};  ///< slowest in the file first
-    std::vector<float> slab_;
 };
 
 }  // namespace

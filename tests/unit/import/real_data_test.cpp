@@ -117,10 +117,33 @@ TEST(RealData, ForecastWithAuxiliaryTimesIsRead) {
     EXPECT_EQ(dateFromAxisTime(description.time, 720), "2005-08-28T12:00:00");
     EXPECT_EQ(description.lattice.axes[2].size(), 14u);
     EXPECT_TRUE(hasNote(description, "Axis bottom_top has no coordinates"));
+    EXPECT_EQ(description.lattice.axes[0].coordinates.back(), 470'000) << "47 cells of 10 km";
     const std::vector<float> samples = readFrame(*source, 3);
     EXPECT_EQ(missingCount(samples), 0u);
     EXPECT_GE(std::ranges::min(samples), 0);
     EXPECT_GT(std::ranges::max(samples), 5e-5f);
+}
+
+TEST(RealData, WindOfTheForecastIsDerivedAtItsHeights) {
+    if (realData().empty()) GTEST_SKIP() << "ISOGLASS_DATA is not set";
+    const std::filesystem::path file = realData() / "katrina" / "mercator_sample.nc";
+    const auto source = openNetcdf(file, {"speed = sqrt(U^2 + V^2)", {}, "(PH + PHB) / 9.81"});
+    const SeriesDescription& description = source->description();
+    EXPECT_EQ(description.lattice.dims(), glm::ivec3(48, 48, 14));
+    std::vector<float> heights(test::sampleCount(description));
+    for (std::size_t frame = 0; frame < 4; ++frame) {
+        const std::vector<float> speed = readFrame(*source, frame);
+        EXPECT_EQ(missingCount(speed), 0u);
+        EXPECT_GT(std::ranges::max(speed), 35) << "a hurricane";
+        EXPECT_LT(std::ranges::max(speed), 100) << "faster than any wind at sea";
+        source->readHeights(frame, heights);
+        // Over the sea and the low land around it the lowest of the 14 levels lies tens of metres high; the
+        // highest is where the pressure has halved, as the file's cut says: five to six kilometres.
+        EXPECT_GT(std::ranges::min(heights), 0);
+        EXPECT_LT(std::ranges::min(heights), 100);
+        EXPECT_GT(std::ranges::max(heights), 5000);
+        EXPECT_LT(std::ranges::max(heights), 6000);
+    }
 }
 
 }  // namespace
