@@ -31,6 +31,10 @@ void setColorWrite(bool on) {
     glColorMask(mask, mask, mask, mask);
 }
 
+void setWireframe(bool on) {
+    glPolygonMode(GL_FRONT_AND_BACK, on ? GL_LINE : GL_FILL);
+}
+
 }  // namespace
 
 StateCache::StateCache() {
@@ -42,6 +46,7 @@ StateCache::StateCache() {
     glFrontFace(current_.frontIsClockwise ? GL_CW : GL_CCW);
     for (GLuint i = 0; i < PipelineState::kMaxTargets; ++i) setBlend(i, current_.blend[i]);
     setColorWrite(current_.colorWrite);
+    setWireframe(current_.wireframe);
 }
 
 int StateCache::apply(const PipelineState& state) {
@@ -60,6 +65,7 @@ int StateCache::apply(const PipelineState& state) {
         if (differs(current_.blend[i], state.blend[i])) setBlend(i, state.blend[i]);
     }
     if (differs(current_.colorWrite, state.colorWrite)) setColorWrite(state.colorWrite);
+    if (differs(current_.wireframe, state.wireframe)) setWireframe(state.wireframe);
     current_ = state;
     return changes;
 }

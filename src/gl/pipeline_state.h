@@ -27,6 +27,7 @@ struct PipelineState {
     bool frontIsClockwise = false;  ///< for placements that mirror
     std::array<Blend, kMaxTargets> blend{};
     bool colorWrite = true;
+    bool wireframe = false;  ///< triangles are drawn as their edges
 
     friend bool operator==(const PipelineState&, const PipelineState&) = default;
 };

@@ -31,6 +31,7 @@ struct FrameDescription {
     /// Samples a pixel along each axis, 1 or 2, averaged in linear light.
     int supersample = 1;
     bool separatePasses = false;  ///< see PlanInput
+    bool wireframe = false;       ///< triangles are drawn as their edges, to look at the mesh
 };
 
 }  // namespace isoglass

@@ -15,6 +15,8 @@ using gl::DepthTest;
 using gl::PipelineState;
 using Begin = ColorWrite::Begin;
 
+constexpr const char* kFullScreen = "full_screen.vert";
+
 void drawOpaque(DrawRecorder& recorder) {
     recorder.drawOpaque();
 }
@@ -109,7 +111,7 @@ PassDeclaration resolvePass(const PlannedPass& planned, bool composed) {
     if (composed) reads.insert(reads.end(), {Target::transmittance, Target::emission});
     return {.kind = planned.kind,
             .reason = planned.reason,
-            .vertexShader = "full_screen.vert",
+            .vertexShader = kFullScreen,
             .fragmentShader = composed ? "resolve_composed.frag" : "resolve_opaque.frag",
             .reads = std::move(reads),
             .writes = {{Target::linearImage}, {Target::srgbImage}},
@@ -173,6 +175,11 @@ std::vector<PassDeclaration> declarePasses(const FramePlan& plan) {
         }
     }
     return passes;
+}
+
+void drawWireframe(std::span<PassDeclaration> passes) {
+    for (PassDeclaration& pass : passes)
+        pass.state.wireframe = pass.vertexShader != std::string_view(kFullScreen);
 }
 
 void checkDataFlow(std::span<const PassDeclaration> passes) {

@@ -58,6 +58,9 @@ struct PassDeclaration {
 /// The declarations of a plan's passes, in its order.
 std::vector<PassDeclaration> declarePasses(const FramePlan& plan);
 
+/// Makes every pass over the surfaces draw their triangles' edges; those over the whole image stay.
+void drawWireframe(std::span<PassDeclaration> passes);
+
 /// Throws std::logic_error where a pass reads or goes on from a target that no pass before it wrote, or
 /// reads one that it writes itself.
 void checkDataFlow(std::span<const PassDeclaration> passes);

@@ -44,8 +44,21 @@ void Renderer::render(const FrameDescription& frame) {
                        .semiTransparentSurfaces = recorder_.semiTransparentCount(),
                        .method = frame.method,
                        .separatePasses = frame.separatePasses});
-    executor_.run(declarePasses(plan_), targets_, frame.background, recorder_, timing_ ? &timings_ : nullptr);
+    std::vector<PassDeclaration> passes = declarePasses(plan_);
+    if (frame.wireframe) drawWireframe(passes);
+    executor_.run(passes, targets_, frame.background, recorder_, timing_ ? &timings_ : nullptr);
     context_.debugLog().throwIfAny("frame");
+}
+
+glm::ivec2 Renderer::copyToWindow() {
+    if (!targets_.exists(Target::srgbImage)) throw std::logic_error("nothing was rendered yet");
+    const glm::ivec2 size = targets_.sizeOf(Target::srgbImage);
+    const gl::Framebuffer& image = targets_.framebuffer({Target::srgbImage}, {}, "copy to the window");
+    constexpr GLuint kWindow = 0;
+    glBlitNamedFramebuffer(image.name(), kWindow, 0, 0, size.x, size.y, 0, 0, size.x, size.y,
+                           GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    context_.debugLog().throwIfAny("copy to the window");
+    return size;
 }
 
 LinearImage Renderer::readLinear() {

@@ -28,6 +28,10 @@ class Renderer {
     /// mesh that is not in the store.
     void render(const FrameDescription& frame);
 
+    /// Copies the last frame to the lower left of the window of a context that has one, and returns the
+    /// frame's size. Throws std::logic_error before the first frame.
+    glm::ivec2 copyToWindow();
+
     /// The passes of the last frame and why; empty before the first.
     const FramePlan& plan() const { return plan_; }
 

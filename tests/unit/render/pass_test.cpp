@@ -71,5 +71,14 @@ TEST(PassList, OnlyTheOpaquePassWritesTheOpaqueDepth) {
     }
 }
 
+TEST(PassList, WireframeIsForSurfacesAndNotForTheWholeImage) {
+    for (auto passes : everyList()) {
+        drawWireframe(passes);
+        for (const PassDeclaration& pass : passes) {
+            EXPECT_EQ(pass.state.wireframe, pass.kind != PassKind::resolve) << passName(pass.kind);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace isoglass::test

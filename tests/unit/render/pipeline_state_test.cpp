@@ -45,6 +45,9 @@ void expectGlHas(const PipelineState& state) {
     GLboolean mask[4];
     glGetBooleanv(GL_COLOR_WRITEMASK, mask);
     for (const GLboolean channel : mask) EXPECT_EQ(channel, state.colorWrite);
+    GLint polygonMode[2] = {};
+    glGetIntegerv(GL_POLYGON_MODE, polygonMode);
+    EXPECT_EQ(polygonMode[0], state.wireframe ? GL_LINE : GL_FILL);
 }
 
 PipelineState randomState(std::mt19937& random) {
@@ -56,6 +59,7 @@ PipelineState randomState(std::mt19937& random) {
     state.frontIsClockwise = pick(2) != 0;
     for (Blend& blend : state.blend) blend = static_cast<Blend>(pick(3));
     state.colorWrite = pick(2) != 0;
+    state.wireframe = pick(2) != 0;
     return state;
 }
 
