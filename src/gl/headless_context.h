@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gl/context.h"
+#include "gl/current_context.h"
 
 #include <memory>
 #include <string>
@@ -12,17 +12,13 @@ namespace isoglass::gl {
 /// Tried in order: each EGL device that gives a hardware context (EGL_EXT_platform_device), Mesa's
 /// surfaceless platform, the default display, any EGL device. The environment variable ISOGLASS_EGL
 /// (surfaceless, device, default) leaves one of them. The context has no surface: draw into framebuffers.
-///
-/// Made, used and destroyed by one thread, in which it is current all the while.
-class HeadlessContext {
+class HeadlessContext final : public CurrentContext {
   public:
     /// Throws Error that says what was tried and what each attempt answered.
     HeadlessContext();
-    ~HeadlessContext();
-    HeadlessContext(const HeadlessContext&) = delete;
-    HeadlessContext& operator=(const HeadlessContext&) = delete;
+    ~HeadlessContext() override;
 
-    Context& context() { return *context_; }
+    Context& context() override { return *context_; }
     /// Which platform gave the context, e.g. "EGL surfaceless" or "EGL device 0".
     const std::string& platform() const { return platform_; }
 

@@ -104,7 +104,7 @@ TEST_F(BatchTest, EachFrameShowsExactlyItsOwnMomentAndCamera) {
         const double position = static_cast<double>(frame.frame) / kFrames;
         const SceneMeshes meshes = extractor.extract(position, camera, scene_.image.size.y);
         EXPECT_DOUBLE_EQ(frame.meshes.axisTimes.at(0), position * kKeyFrames);
-        FrameDescription description = describeFrame(scene_, camera);
+        FrameDescription description = describeFrame(scene_, {.camera = camera, .size = scene_.image.size});
         description.draws = surfaceDraws(scene_, meshes);
         for (std::size_t i = 0; i < meshes.surfaces.size(); ++i) {
             description.draws[i].mesh = renderer.meshes().upload(*meshes.surfaces[i].mesh);

@@ -1,7 +1,9 @@
 #include "pipeline/render_loop.h"
 
 #include "base/error.h"
+#include "gl/headless_context.h"
 #include "pipeline/extraction_worker.h"
+#include "threads/eventually.h"
 
 #include <gtest/gtest.h>
 
@@ -46,6 +48,11 @@ FrameMeshes squareSet() {
     return set;
 }
 
+/// From above the place, as the scene's own camera looks.
+RenderView view(glm::dvec2 place) {
+    return {.camera = {.eye = {place, 4}, .target = {place, 0}}, .size = {32, 32}};
+}
+
 Rgba8 middle(const Image& image) {
     return image.at(image.size.x / 2, image.size.y / 2);
 }
@@ -53,8 +60,7 @@ Rgba8 middle(const Image& image) {
 TEST(RenderLoop, PresentsHundredFramesWhileExtractionIsHeldAndTheMeshesAfterwards) {
     constexpr std::uint64_t kFrames = 100;
     std::latch started(1), released(1);
-    Mailbox<FrameMeshes> meshes;
-    Mailbox<CameraPose> cameras;
+    RenderInbox inbox;
     std::uint64_t presentedWhileHeld = 0;
     Rgba8 before{}, after{};
     ExtractionWorker worker(
@@ -63,7 +69,7 @@ TEST(RenderLoop, PresentsHundredFramesWhileExtractionIsHeldAndTheMeshesAfterward
             released.wait();
             return squareMeshes();
         },
-        meshes);
+        inbox.meshes);
     worker.request({});
     started.wait();
     RenderLoop::Hooks hooks;
@@ -75,62 +81,113 @@ TEST(RenderLoop, PresentsHundredFramesWhileExtractionIsHeldAndTheMeshesAfterward
         if (shown.count < kFrames) {
             before = middle(renderer.readSrgb());
             if (++presentedWhileHeld == kFrames) released.count_down();
+            inbox.views.post(view({0, 0}));
         }
         return true;
     };
-    RenderLoop(redSquare(), Pace::newest, meshes, cameras, std::move(hooks)).join();
+    RenderLoop(redSquare(), Pace::newest, inbox, std::move(hooks)).join();
     EXPECT_EQ(presentedWhileHeld, kFrames);
     EXPECT_EQ(before, kBlack);
     EXPECT_EQ(after, kRed);
 }
 
 TEST(RenderLoop, KeepsShowingTheOldMeshesWhileNewOnesAreMade) {
-    Mailbox<FrameMeshes> meshes;
-    Mailbox<CameraPose> cameras;
-    meshes.post(squareSet());
+    RenderInbox inbox;
+    inbox.meshes.post(squareSet());
     RenderLoop::Hooks hooks;
     hooks.present = [&](const ShownFrame& shown, Renderer& renderer) {
         EXPECT_EQ(middle(renderer.readSrgb()), kRed) << "frame " << shown.count;
+        inbox.news.ring();
         return shown.count < 20;
     };
-    RenderLoop(redSquare(), Pace::newest, meshes, cameras, std::move(hooks)).join();
+    RenderLoop(redSquare(), Pace::newest, inbox, std::move(hooks)).join();
 }
 
 TEST(RenderLoop, OldMeshesAreFreed) {
-    Mailbox<FrameMeshes> meshes;
-    Mailbox<CameraPose> cameras;
+    RenderInbox inbox;
     RenderLoop::Hooks hooks;
     hooks.present = [&](const ShownFrame& shown, Renderer& renderer) {
         EXPECT_EQ(renderer.meshes().count(), shown.meshes ? 1u : 0u) << "frame " << shown.count;
-        meshes.post(squareSet());
+        inbox.meshes.post(squareSet());
         return shown.count < 20;
     };
-    RenderLoop(redSquare(), Pace::newest, meshes, cameras, std::move(hooks)).join();
+    RenderLoop(redSquare(), Pace::newest, inbox, std::move(hooks)).join();
 }
 
 TEST(RenderLoop, FollowsTheNewestCameraWithoutNewMeshes) {
-    Mailbox<FrameMeshes> meshes;
-    Mailbox<CameraPose> cameras;
-    meshes.post(squareSet());
+    RenderInbox inbox;
+    inbox.meshes.post(squareSet());
     RenderLoop::Hooks hooks;
     hooks.present = [&](const ShownFrame& shown, Renderer& renderer) {
         // From frame 2 on the camera looks past the square.
         EXPECT_EQ(middle(renderer.readSrgb()), shown.count < 2 ? kRed : kBlack) << "frame " << shown.count;
-        if (shown.count == 1) cameras.post({.eye = {50, 0, 4}, .target = {50, 0, 0}});
+        if (shown.count == 1) inbox.views.post(view({50, 0}));
+        if (shown.count != 1) inbox.news.ring();
         return shown.count < 4;
     };
-    RenderLoop(redSquare(), Pace::newest, meshes, cameras, std::move(hooks)).join();
+    RenderLoop(redSquare(), Pace::newest, inbox, std::move(hooks)).join();
+}
+
+TEST(RenderLoop, NothingIsDrawnWhereNothingChanged) {
+    RenderInbox inbox;
+    std::atomic<std::uint64_t> drawn{0};
+    RenderLoop loop(redSquare(), Pace::newest, inbox, {.present = [&](const ShownFrame&, Renderer&) {
+                        ++drawn;
+                        return true;
+                    }});
+    // A loop that draws without being asked is ahead of the news at some point.
+    for (std::uint64_t news = 1; news <= 50; ++news) {
+        ASSERT_TRUE(test::eventually([&] { return drawn >= news; }));
+        ASSERT_EQ(drawn, news);
+        inbox.views.post(view({0, 0}));
+    }
+    loop.stop();
+    loop.join();
+}
+
+TEST(RenderLoop, ImageHasTheSizeOfTheNewestView) {
+    RenderInbox inbox;
+    std::vector<glm::ivec2> sizes;
+    RenderLoop::Hooks hooks;
+    hooks.present = [&](const ShownFrame& shown, Renderer& renderer) {
+        sizes.push_back(renderer.readSrgb().size);
+        RenderView next = view({0, 0});
+        next.size = {20, 10};
+        inbox.views.post(next);
+        return shown.count < 1;
+    };
+    RenderLoop(redSquare(), Pace::newest, inbox, std::move(hooks)).join();
+    EXPECT_EQ(sizes, (std::vector<glm::ivec2>{{32, 32}, {20, 10}}));
+}
+
+TEST(RenderLoop, WireframeDrawsTheEdgesAndNothingBetween) {
+    RenderInbox inbox;
+    inbox.meshes.post(squareSet());
+    RenderView wires = view({0, 0});
+    wires.wireframe = true;
+    inbox.views.post(wires);
+    Image image;
+    RenderLoop::Hooks hooks;
+    hooks.present = [&](const ShownFrame&, Renderer& renderer) {
+        image = renderer.readSrgb();
+        return false;
+    };
+    RenderLoop(redSquare(), Pace::newest, inbox, std::move(hooks)).join();
+    const int middleRow = image.size.y / 2;
+    int lit = 0;
+    for (int x = 0; x < image.size.x; ++x) lit += image.at(x, middleRow) == kRed;
+    // The row crosses the left side, the right side and the diagonal, none of them along itself.
+    EXPECT_EQ(lit, 3);
 }
 
 TEST(RenderLoop, EveryMeshDrawsOnceForEachWithItsOwnCamera) {
-    Mailbox<FrameMeshes> meshes;
-    Mailbox<CameraPose> cameras;
+    RenderInbox inbox;
     const auto post = [&](std::uint64_t number) {
         const double x = number % 2 == 0 ? 0 : 50;
         FrameMeshes set = squareSet();
         set.request.number = number;
         set.request.camera = {.eye = {x, 0, 4}, .target = {x, 0, 0}};
-        meshes.post(std::move(set));
+        inbox.meshes.post(std::move(set));
     };
     RenderLoop::Hooks hooks;
     hooks.present = [&](const ShownFrame& shown, Renderer& renderer) {
@@ -140,15 +197,14 @@ TEST(RenderLoop, EveryMeshDrawsOnceForEachWithItsOwnCamera) {
         return shown.count < 5;
     };
     post(0);
-    RenderLoop(redSquare(), Pace::everyMesh, meshes, cameras, std::move(hooks)).join();
+    RenderLoop(redSquare(), Pace::everyMesh, inbox, std::move(hooks)).join();
 }
 
 TEST(RenderLoop, StopEndsAWaitingLoop) {
-    Mailbox<FrameMeshes> meshes;
-    Mailbox<CameraPose> cameras;
+    RenderInbox inbox;
     std::atomic<bool> ended{false};
     RenderLoop loop(
-        redSquare(), Pace::everyMesh, meshes, cameras,
+        redSquare(), Pace::everyMesh, inbox,
         {.present = [](const ShownFrame&, Renderer&) { return true; }, .ended = [&] { ended = true; }});
     loop.stop();
     loop.join();
@@ -157,26 +213,71 @@ TEST(RenderLoop, StopEndsAWaitingLoop) {
 
 TEST(RenderLoop, JoinRethrowsAFailedExtraction) {
     for (const Pace pace : {Pace::newest, Pace::everyMesh}) {
-        Mailbox<FrameMeshes> meshes;
-        Mailbox<CameraPose> cameras;
+        RenderInbox inbox;
         FrameMeshes failed;
         failed.failure = std::make_exception_ptr(Error("cannot read", "key frame 3"));
-        meshes.post(std::move(failed));
+        inbox.meshes.post(std::move(failed));
         std::atomic<bool> ended{false};
         RenderLoop loop(
-            redSquare(), pace, meshes, cameras,
+            redSquare(), pace, inbox,
             {.present = [](const ShownFrame&, Renderer&) { return true; }, .ended = [&] { ended = true; }});
         EXPECT_THROW(loop.join(), Error);
         EXPECT_TRUE(ended);
     }
 }
 
+TEST(RenderLoop, FailedHookTakesTheFailureAndTheOldMeshesStay) {
+    RenderInbox inbox;
+    inbox.meshes.post(squareSet());
+    bool toldWhy = false;
+    RenderLoop::Hooks hooks;
+    hooks.failed = [&](const FrameMeshes& failed) {
+        EXPECT_THROW(std::rethrow_exception(failed.failure), Error);
+        EXPECT_EQ(failed.request.number, 7u);
+        toldWhy = true;
+    };
+    hooks.present = [&](const ShownFrame& shown, Renderer& renderer) {
+        EXPECT_EQ(middle(renderer.readSrgb()), kRed) << "frame " << shown.count;
+        FrameMeshes failed;
+        failed.request.number = 7;
+        failed.failure = std::make_exception_ptr(Error("cannot read", "key frame 3"));
+        inbox.meshes.post(std::move(failed));
+        return shown.count < 1;
+    };
+    RenderLoop(redSquare(), Pace::newest, inbox, std::move(hooks)).join();
+    EXPECT_TRUE(toldWhy);
+}
+
+TEST(RenderLoop, DrawsInTheContextThatItIsGivenAndEndsAfterItIsGone) {
+    struct Witnessed final : gl::CurrentContext {
+        explicit Witnessed(std::atomic<int>& alive) : count(alive) { ++count; }
+        ~Witnessed() override { --count; }
+        gl::Context& context() override { return headless.context(); }
+
+        gl::HeadlessContext headless;
+        std::atomic<int>& count;
+    };
+    RenderInbox inbox;
+    std::atomic<int> alive{0};
+    int aliveWhenPresented = 0, aliveWhenEnded = -1;
+    RenderLoop(redSquare(), Pace::newest, inbox,
+               {.makeContext = [&] { return std::make_unique<Witnessed>(alive); },
+                .present =
+                    [&](const ShownFrame&, Renderer&) {
+                        aliveWhenPresented = alive;
+                        return false;
+                    },
+                .ended = [&] { aliveWhenEnded = alive; }})
+        .join();
+    EXPECT_EQ(aliveWhenPresented, 1);
+    EXPECT_EQ(aliveWhenEnded, 0);
+}
+
 TEST(RenderLoop, JoinRethrowsWhatAHookThrows) {
-    Mailbox<FrameMeshes> meshes;
-    Mailbox<CameraPose> cameras;
-    RenderLoop loop(
-        redSquare(), Pace::newest, meshes, cameras,
-        {.present = [](const ShownFrame&, Renderer&) -> bool { throw std::runtime_error("present"); }});
+    RenderInbox inbox;
+    RenderLoop loop(redSquare(), Pace::newest, inbox, {.present = [](const ShownFrame&, Renderer&) -> bool {
+                        throw std::runtime_error("present");
+                    }});
     EXPECT_THROW(loop.join(), std::runtime_error);
 }
 

@@ -1,4 +1,3 @@
-#include "basis/mailbox.h"
 #include "pipeline/render_loop.h"
 
 #include <gtest/gtest.h>
@@ -103,9 +102,8 @@ TEST(WholeMeshes, ShownCodeSeesTornAndHalfUploadedPictures) {
 /// A worker publishes sets as fast as it can; every picture must show one whole set, never an older one.
 TEST(WholeMeshes, NoFrameMixesTwoSetsOrShowsPartOfOne) {
     constexpr std::uint64_t kFrames = 300;
-    Mailbox<FrameMeshes> meshes;
-    Mailbox<CameraPose> cameras;
-    meshes.post(makeSet(1));
+    RenderInbox inbox;
+    inbox.meshes.post(makeSet(1));
     std::set<std::uint64_t> seen;
     std::uint64_t newest = 0;
     RenderLoop::Hooks hooks;
@@ -121,9 +119,9 @@ TEST(WholeMeshes, NoFrameMixesTwoSetsOrShowsPartOfOne) {
         }
         return shown.count + 1 < kFrames && !testing::Test::HasFailure();
     };
-    RenderLoop loop(twoHalves(), Pace::newest, meshes, cameras, std::move(hooks));
+    RenderLoop loop(twoHalves(), Pace::newest, inbox, std::move(hooks));
     std::jthread worker([&](std::stop_token stop) {
-        for (std::uint64_t number = 2; !stop.stop_requested(); ++number) meshes.post(makeSet(number));
+        for (std::uint64_t number = 2; !stop.stop_requested(); ++number) inbox.meshes.post(makeSet(number));
     });
     loop.join();
     EXPECT_GE(seen.size(), 10u) << "the meshes hardly ever changed, so nothing could be torn";

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "basis/bell.h"
+
 #include <condition_variable>
 #include <mutex>
 #include <optional>
@@ -14,6 +16,9 @@ namespace isoglass {
 template <typename T>
 class Mailbox {
   public:
+    /// `bell`, where there is one, rings after every post. It must outlive the box.
+    explicit Mailbox(Bell* bell = nullptr) : bell_(bell) {}
+
     /// Puts `value` in place of whatever lies in the box.
     void post(T value) {
         std::optional<T> dropped(std::move(value));
@@ -22,6 +27,7 @@ class Mailbox {
             std::swap(value_, dropped);
         }
         arrived_.notify_one();
+        if (bell_ != nullptr) bell_->ring();
     }
 
     /// Takes the value if there is one.
@@ -39,6 +45,7 @@ class Mailbox {
     }
 
   private:
+    Bell* const bell_;
     std::mutex mutex_;
     std::condition_variable_any arrived_;
     std::optional<T> value_;

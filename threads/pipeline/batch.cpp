@@ -1,7 +1,6 @@
 #include "pipeline/batch.h"
 
 #include "basis/bounded_queue.h"
-#include "basis/mailbox.h"
 #include "pipeline/extraction_worker.h"
 #include "pipeline/render_loop.h"
 
@@ -17,6 +16,7 @@ FrameRequest requestFor(const Scene& scene, std::int64_t frame) {
     request.number = static_cast<std::uint64_t>(frame);
     request.position = scene.time.position(frame);
     request.camera = scene.camera.poseAt(static_cast<double>(frame) / scene.time.fps);
+    request.imageHeight = scene.image.size.y;
     return request;
 }
 
@@ -24,14 +24,13 @@ FrameRequest requestFor(const Scene& scene, std::int64_t frame) {
 
 void renderFrames(const Scene& scene, SceneExtractor& extractor, FrameRange range,
                   const std::function<bool(RenderedFrame)>& sink) {
-    Mailbox<FrameMeshes> meshes;
-    Mailbox<CameraPose> cameras;
+    RenderInbox inbox;
     BoundedQueue<RenderedFrame> images(kImagesAhead);
     ExtractionWorker worker(
         [&](const FrameRequest& request) {
-            return extractor.extract(request.position, request.camera, scene.image.size.y);
+            return extractor.extract(request.position, request.camera, request.imageHeight);
         },
-        meshes);
+        inbox.meshes);
     const auto isLast = [&](const FrameMeshes& shown) {
         return static_cast<std::int64_t>(shown.request.number) >= range.last;
     };
@@ -47,7 +46,7 @@ void renderFrames(const Scene& scene, SceneExtractor& extractor, FrameRange rang
         return images.push(std::move(frame)) && !isLast(*shown.meshes);
     };
     hooks.ended = [&] { images.close(); };
-    RenderLoop loop(scene, Pace::everyMesh, meshes, cameras, std::move(hooks));
+    RenderLoop loop(scene, Pace::everyMesh, inbox, std::move(hooks));
     worker.request(requestFor(scene, range.first));
     try {
         while (std::optional<RenderedFrame> frame = images.pop()) {

@@ -4,12 +4,10 @@
 
 namespace isoglass {
 
-RenderLoop::RenderLoop(const Scene& scene, Pace pace, Mailbox<FrameMeshes>& meshes,
-                       Mailbox<CameraPose>& cameras, Hooks hooks)
+RenderLoop::RenderLoop(const Scene& scene, Pace pace, RenderInbox& inbox, Hooks hooks)
     : scene_(scene),
       pace_(pace),
-      incomingMeshes_(meshes),
-      incomingCameras_(cameras),
+      inbox_(inbox),
       hooks_(std::move(hooks)),
       thread_([this](std::stop_token stop) { run(stop); }) {}
 
@@ -20,8 +18,9 @@ void RenderLoop::join() {
 
 void RenderLoop::run(std::stop_token stop) {
     try {
-        gl::HeadlessContext context;
-        Renderer renderer(context.context());
+        const std::unique_ptr<gl::CurrentContext> context =
+            hooks_.makeContext ? hooks_.makeContext() : std::make_unique<gl::HeadlessContext>();
+        Renderer renderer(context->context());
         draw(stop, renderer);
     } catch (...) {
         failure_ = std::current_exception();
@@ -30,21 +29,35 @@ void RenderLoop::run(std::stop_token stop) {
 }
 
 void RenderLoop::draw(std::stop_token stop, Renderer& renderer) {
-    CameraPose camera = scene_.camera.poseAt(0);
-    for (std::uint64_t count = 0; !stop.stop_requested(); ++count) {
-        std::optional<FrameMeshes> meshes =
-            pace_ == Pace::everyMesh ? incomingMeshes_.take(stop) : incomingMeshes_.tryTake();
-        if (pace_ == Pace::everyMesh && !meshes) return;
-        if (meshes) {
-            if (meshes->failure) std::rethrow_exception(meshes->failure);
-            if (hooks_.taken) hooks_.taken(*meshes);
-            if (pace_ == Pace::everyMesh) camera = meshes->request.camera;
-            replaceMeshes(renderer, std::move(*meshes));
+    RenderView view = sceneView(scene_);
+    bool due = pace_ == Pace::newest;
+    for (std::uint64_t count = 0; due || inbox_.news.wait(stop); due = false) {
+        if (stop.stop_requested()) return;
+        if (hooks_.woken) hooks_.woken();
+        const bool fresh = takeMeshes(renderer);
+        if (pace_ == Pace::everyMesh) {
+            if (!fresh) continue;
+            view.camera = shown_->request.camera;
+        } else if (const auto newest = inbox_.views.tryTake()) {
+            view = *newest;
         }
-        if (const auto newest = incomingCameras_.tryTake()) camera = *newest;
-        renderer.render(describe(camera));
-        if (!hooks_.present({count, shown_ ? &*shown_ : nullptr}, renderer)) return;
+        renderer.render(describe(view));
+        if (!hooks_.present({count++, shown_ ? &*shown_ : nullptr}, renderer)) return;
     }
+}
+
+/// True when there is a new set.
+bool RenderLoop::takeMeshes(Renderer& renderer) {
+    std::optional<FrameMeshes> meshes = inbox_.meshes.tryTake();
+    if (!meshes) return false;
+    if (meshes->failure) {
+        if (!hooks_.failed) std::rethrow_exception(meshes->failure);
+        hooks_.failed(*meshes);
+        return false;
+    }
+    if (hooks_.taken) hooks_.taken(*meshes);
+    replaceMeshes(renderer, std::move(*meshes));
+    return true;
 }
 
 void RenderLoop::replaceMeshes(Renderer& renderer, FrameMeshes meshes) {
@@ -57,10 +70,14 @@ void RenderLoop::replaceMeshes(Renderer& renderer, FrameMeshes meshes) {
     shown_ = std::move(meshes);
 }
 
-FrameDescription RenderLoop::describe(const CameraPose& camera) const {
-    FrameDescription frame = describeFrame(scene_, camera);
+FrameDescription RenderLoop::describe(const RenderView& view) const {
+    FrameDescription frame = describeFrame(scene_, view);
     frame.draws = draws_;
     return frame;
+}
+
+RenderView sceneView(const Scene& scene) {
+    return {.camera = scene.camera.poseAt(0), .size = scene.image.size};
 }
 
 std::vector<SurfaceDraw> surfaceDraws(const Scene& scene, const SceneMeshes& meshes) {
@@ -77,14 +94,15 @@ std::vector<SurfaceDraw> surfaceDraws(const Scene& scene, const SceneMeshes& mes
     return draws;
 }
 
-FrameDescription describeFrame(const Scene& scene, const CameraPose& camera) {
+FrameDescription describeFrame(const Scene& scene, const RenderView& view) {
     FrameDescription frame;
-    frame.camera = {camera.eye, camera.target, scene.camera.up, scene.camera.fovDegrees, scene.image.size};
+    frame.camera = {view.camera.eye, view.camera.target, scene.camera.up, scene.camera.fovDegrees, view.size};
     frame.background = scene.image.background;
     frame.exposure = scene.image.exposure;
     frame.lighting = scene.lighting;
     frame.method = scene.transparency;
     frame.supersample = scene.image.supersample;
+    frame.wireframe = view.wireframe;
     return frame;
 }
 

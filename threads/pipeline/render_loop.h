@@ -1,6 +1,8 @@
 #pragma once
 
+#include "basis/bell.h"
 #include "basis/mailbox.h"
+#include "gl/current_context.h"
 #include "pipeline/extraction_worker.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
@@ -8,6 +10,7 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -16,8 +19,26 @@ namespace isoglass {
 
 /// When the render loop draws.
 enum class Pace {
-    newest,     ///< at once, with the newest meshes and camera there are; never waits (playback)
+    /// Once at the start, then whenever the bell of its inbox was rung, with the newest meshes and view
+    /// there are; never waits for meshes (a window).
+    newest,
     everyMesh,  ///< once for every set of meshes, with the camera it was made for (batch)
+};
+
+/// How the meshes are looked at.
+struct RenderView {
+    CameraPose camera;
+    glm::ivec2 size{0};      ///< of the image in pixels
+    bool wireframe = false;  ///< see FrameDescription
+
+    friend bool operator==(const RenderView&, const RenderView&) = default;
+};
+
+/// What other threads hand to the render thread.
+struct RenderInbox {
+    Bell news;  ///< rings when one of the boxes gets something; ring it to have a frame drawn again
+    Mailbox<FrameMeshes> meshes{&news};
+    Mailbox<RenderView> views{&news};
 };
 
 /// What a drawn frame shows.
@@ -30,21 +51,29 @@ struct ShownFrame {
 /// The render thread: owns the GL context and every GL object, takes the newest meshes, draws.
 ///
 /// A new set of meshes is uploaded whole before it takes the place of the old one, so no frame shows
-/// parts of two sets.
+/// parts of two sets. Where nothing changes nothing is drawn: the thread sleeps.
 class RenderLoop {
   public:
+    /// All run on the render thread.
     struct Hooks {
+        /// Makes the context that the loop draws with; without one it is a HeadlessContext.
+        std::function<std::unique_ptr<gl::CurrentContext>()> makeContext = {};
+        /// News came, and nothing of it was taken yet: whatever was posted before something that this hook
+        /// finds will be in the next frame. In batch there may be none. Optional.
+        std::function<void()> woken = {};
         /// A finished set was taken, before it is drawn: the moment to ask for the next one. Optional.
         std::function<void(const FrameMeshes&)> taken = {};
-        /// A frame was drawn; read it back from the renderer. False ends the loop.
+        /// A set could not be made: its failure and request. The old meshes stay. Without this hook the
+        /// loop ends and `join` rethrows.
+        std::function<void(const FrameMeshes&)> failed = {};
+        /// A frame was drawn; read it back or show it. False ends the loop.
         std::function<bool(const ShownFrame&, Renderer&)> present;
-        /// The loop has ended, for whatever reason: nothing more is presented. Optional.
+        /// The loop has ended, for whatever reason, and its context is gone. Optional.
         std::function<void()> ended = {};
     };
 
-    /// Starts the thread. `meshes` and `cameras` must outlive the loop. Hooks run on the render thread.
-    RenderLoop(const Scene& scene, Pace pace, Mailbox<FrameMeshes>& meshes, Mailbox<CameraPose>& cameras,
-               Hooks hooks);
+    /// Starts the thread. `inbox` must outlive the loop.
+    RenderLoop(const Scene& scene, Pace pace, RenderInbox& inbox, Hooks hooks);
 
     /// Asks the loop to end after the frame it is drawing. Any thread.
     void stop() { thread_.request_stop(); }
@@ -53,17 +82,15 @@ class RenderLoop {
     void join();
 
   private:
-    struct Uploaded;
-
     void run(std::stop_token stop);
     void draw(std::stop_token stop, Renderer& renderer);
+    bool takeMeshes(Renderer& renderer);
     void replaceMeshes(Renderer& renderer, FrameMeshes meshes);
-    FrameDescription describe(const CameraPose& camera) const;
+    FrameDescription describe(const RenderView& view) const;
 
     const Scene scene_;
     const Pace pace_;
-    Mailbox<FrameMeshes>& incomingMeshes_;
-    Mailbox<CameraPose>& incomingCameras_;
+    RenderInbox& inbox_;
     const Hooks hooks_;
     std::optional<FrameMeshes> shown_;
     std::vector<SurfaceDraw> draws_;
@@ -71,11 +98,14 @@ class RenderLoop {
     std::jthread thread_;  ///< last member: it uses all the others
 };
 
+/// The view that a scene describes, from the beginning of its camera's path.
+RenderView sceneView(const Scene& scene);
+
 /// How the scene's surfaces are drawn: placement, colour and opacity for each extracted mesh. The mesh
 /// ids are left open.
 std::vector<SurfaceDraw> surfaceDraws(const Scene& scene, const SceneMeshes& meshes);
 
 /// The frame's description without its surfaces.
-FrameDescription describeFrame(const Scene& scene, const CameraPose& camera);
+FrameDescription describeFrame(const Scene& scene, const RenderView& view);
 
 }  // namespace isoglass
