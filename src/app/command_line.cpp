@@ -1,6 +1,7 @@
 #include "app/command_line.h"
 
 #include "app/commands.h"
+#include "app/view/controls.h"
 
 #include <CLI/CLI.hpp>
 
@@ -32,6 +33,11 @@ Number number(const std::string& text, const std::string& form) {
     if (!CLI::detail::lexical_cast(text, value))
         throw CLI::ValidationError("'" + text + "' does not read " + form);
     return value;
+}
+
+glm::ivec2 imageSize(const std::string& text) {
+    const auto [width, height] = splitPair(text, 'x', "WxH");
+    return {number<int>(width, "WxH"), number<int>(height, "WxH")};
 }
 
 void addImport(CLI::App& app, std::function<void()>& run) {
@@ -84,11 +90,7 @@ void addRender(CLI::App& app, const CommonOptions& common, std::function<void()>
         },
         "Frames A to B, from 0, both included");
     verb->add_option_function<std::string>(
-        "--size",
-        [command](const std::string& text) {
-            const auto [width, height] = splitPair(text, 'x', "WxH");
-            command->size = glm::ivec2(number<int>(width, "WxH"), number<int>(height, "WxH"));
-        },
+        "--size", [command](const std::string& text) { command->size = imageSize(text); },
         "Size of the image, WxH pixels");
     static const std::map<std::string, TransparencyMethod> kMethods = {
         {"auto", TransparencyMethod::automatic},
@@ -99,6 +101,18 @@ void addRender(CLI::App& app, const CommonOptions& common, std::function<void()>
             "Composition: auto, 3-pass or 4-pass")
         ->check(CLI::IsMember({"auto", "3-pass", "4-pass"}));
     verb->callback([command, &common, &run] { run = [command, &common] { runRender(*command, common); }; });
+}
+
+void addView(CLI::App& app, const CommonOptions& common, std::function<void()>& run) {
+    auto command = std::make_shared<ViewCommand>();
+    CLI::App* verb = app.add_subcommand("view", "Show a scene or a series in a window");
+    verb->add_option("SCENE", command->file, "Scene file (.json), or a series of IsoGlass (.vdb)")
+        ->required();
+    verb->add_option_function<std::string>(
+        "--size", [command](const std::string& text) { command->size = imageSize(text); },
+        "Size of the window, WxH; default: that of the scene's image");
+    verb->footer("In the window:\n" + std::string(viewerHelp()));
+    verb->callback([command, &common, &run] { run = [command, &common] { runView(*command, common); }; });
 }
 
 void addMesh(CLI::App& app, const CommonOptions& common, std::function<void()>& run) {
@@ -158,6 +172,7 @@ int runCommandLine(int argc, char** argv) {
     addImport(app, run);
     addInfo(app, run);
     addRender(app, common, run);
+    addView(app, common, run);
     addMesh(app, common, run);
     addPlan(app, run);
     addBench(app, common, run);

@@ -48,6 +48,12 @@ struct RenderCommand {
 };
 void runRender(const RenderCommand& command, const CommonOptions& common);
 
+struct ViewCommand {
+    std::filesystem::path file;      ///< a scene or a series
+    std::optional<glm::ivec2> size;  ///< of the window; the scene's image where not given
+};
+void runView(const ViewCommand& command, const CommonOptions& common);
+
 struct MeshCommand {
     std::filesystem::path series;
     std::filesystem::path out;

@@ -1,0 +1,79 @@
+#include "app/view/window_output.h"
+
+#include <exception>
+
+namespace isoglass {
+
+namespace {
+
+std::string reasonOf(const std::exception_ptr& failure) {
+    try {
+        std::rethrow_exception(failure);
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+}
+
+}  // namespace
+
+/// The window as the render loop's context, and what is written over its picture.
+struct WindowOutput::Target final : gl::CurrentContext {
+    gl::WindowContext window;
+    Overlay overlay;
+
+    Target(gl::Window& shownIn, float scale) : window(shownIn), overlay(scale) {}
+    gl::Context& context() override { return window.context(); }
+};
+
+WindowOutput::WindowOutput(gl::Window& window, RenderInbox& inbox, Screenshots& screenshots, std::string name)
+    : window_(window),
+      screenshots_(screenshots),
+      name_(std::move(name)),
+      scale_(window.scale()),
+      orders_(&inbox.news) {}
+
+RenderLoop::Hooks WindowOutput::hooks() {
+    return {
+        .makeContext = [this] { return makeContext(); },
+        // An order is for the view that was posted before it.
+        .woken =
+            [this] {
+                if (auto newest = orders_.tryTake()) order_ = std::move(*newest);
+            },
+        .taken = [this](const FrameMeshes&) { failure_.clear(); },
+        .failed = [this](const FrameMeshes& failed) { failure_ = reasonOf(failed.failure); },
+        .present = [this](const ShownFrame& shown, Renderer& renderer) { return present(shown, renderer); },
+        .ended =
+            [this] {
+                ended_ = true;
+                gl::Window::wake();
+            }};
+}
+
+std::unique_ptr<gl::CurrentContext> WindowOutput::makeContext() {
+    auto target = std::make_unique<Target>(window_, scale_);
+    target_ = target.get();
+    return target;
+}
+
+bool WindowOutput::present(const ShownFrame& shown, Renderer& renderer) {
+    const glm::ivec2 size = renderer.copyToWindow();
+    target_->overlay.draw(order_.text, size);
+    saveIfDue(shown, renderer);
+    target_->window.show();
+    shown_.post({shown.meshes ? shown.meshes->meshes.axisTimes : std::vector<double>{}, failure_});
+    gl::Window::wake();
+    return true;
+}
+
+void WindowOutput::saveIfDue(const ShownFrame& shown, Renderer& renderer) {
+    const bool asked = order_.screenshots > saved_;
+    // A failed request is never shown: what there is must do.
+    const bool there =
+        !failure_.empty() || (shown.meshes && shown.meshes->request.number >= order_.screenshotRequest);
+    if (!asked || !there) return;
+    saved_ = order_.screenshots;
+    screenshots_.save(renderer.readSrgb(), name_);
+}
+
+}  // namespace isoglass

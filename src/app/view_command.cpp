@@ -1,0 +1,34 @@
+#include "app/commands.h"
+#include "app/view/viewer.h"
+#include "base/error.h"
+
+#include <algorithm>
+#include <string>
+
+namespace isoglass {
+
+namespace {
+
+constexpr int kLargestSide = 16384;
+
+void check(glm::ivec2 size) {
+    if (std::min(size.x, size.y) >= 1 && std::max(size.x, size.y) <= kLargestSide) return;
+    throw Error("a window has 1 to " + std::to_string(kLargestSide) + " pixels a side", "--size");
+}
+
+}  // namespace
+
+void runView(const ViewCommand& command, const CommonOptions& common) {
+    const SceneExtractor::Options options{.memoryBytes = common.memoryBytes, .threads = common.threads};
+    const glm::ivec2 firstSize = command.size.value_or(ImageSettings().size);
+    check(firstSize);
+    // Without a display there is no use in opening anything.
+    gl::Window window("IsoGlass", firstSize);
+    Opened opened = openForViewing(command.file, firstSize, options);
+    if (!command.size) window.resize(opened.scene.image.size);
+    Viewer viewer(window, std::move(opened), options);
+    window.show();
+    viewer.run();
+}
+
+}  // namespace isoglass
