@@ -19,6 +19,7 @@ struct SeriesFile::Impl {
     SeriesDescription description;
     mutable std::mutex mutex;
     std::unique_ptr<openvdb::io::File> file;
+    ReadFrame readElsewhere;  ///< takes the place of `file`
 };
 
 namespace {
@@ -74,6 +75,13 @@ SeriesFile::SeriesFile(const std::filesystem::path& path) : impl_(std::make_uniq
     impl_->description = seriesFromJson(text, where);
 }
 
+SeriesFile::SeriesFile(std::filesystem::path name, SeriesDescription description, ReadFrame read)
+    : impl_(std::make_unique<Impl>()) {
+    impl_->path = std::move(name);
+    impl_->description = std::move(description);
+    impl_->readElsewhere = std::move(read);
+}
+
 SeriesFile::~SeriesFile() = default;
 
 const SeriesDescription& SeriesFile::description() const {
@@ -85,6 +93,7 @@ const std::filesystem::path& SeriesFile::path() const {
 }
 
 std::shared_ptr<const KeyFrame> SeriesFile::read(std::size_t frame) const {
+    if (impl_->readElsewhere) return impl_->readElsewhere(frame);
     const SeriesDescription& series = impl_->description;
     const std::string where = impl_->path.string() + ", key frame " + std::to_string(frame);
     const glm::ivec3 dims = series.lattice.dims();

@@ -22,6 +22,11 @@ class SeriesFile {
     /// second a gigabyte. Throws Error where the file cannot be read, is no OpenVDB file, holds no
     /// IsoGlass series, or is damaged.
     explicit SeriesFile(const std::filesystem::path& path);
+
+    using ReadFrame = std::function<std::shared_ptr<const KeyFrame>(std::size_t frame)>;
+    /// A series whose key frames come from `read`, such as several files in a row (series_set.h). `read` may
+    /// be called from any thread, several at a time. `name` stands for the path.
+    SeriesFile(std::filesystem::path name, SeriesDescription description, ReadFrame read);
     ~SeriesFile();
 
     const SeriesDescription& description() const;
