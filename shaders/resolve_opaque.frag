@@ -3,6 +3,6 @@
 
 layout(binding = 0) uniform sampler2D opaqueColor;
 
-vec3 sampleColor(ivec2 position) { return texelFetch(opaqueColor, position, 0).rgb; }
+vec4 sampleColor(ivec2 position) { return texelFetch(opaqueColor, position, 0); }
 
 void main() { resolvePixel(); }

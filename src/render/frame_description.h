@@ -23,6 +23,8 @@ struct FrameDescription {
     CameraView camera;
     std::vector<SurfaceDraw> draws{};
     LinearColor background{0};
+    /// Below 1 the picture has alpha: that of the background, and what surfaces cover of it.
+    float backgroundOpacity = 1;
     float exposure = 1;  ///< linear factor before the sRGB curve
     /// color * (ambient + diffuse * cos) + specular * cos^shininess, where cos is that of the angle between
     /// normal and view: light and eye are one. Both sides of a surface are lit alike. `shininess` is above 0.

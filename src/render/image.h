@@ -32,7 +32,7 @@ struct Rgba8 {
 };
 
 using Image = Raster<Rgba8>;
-using LinearImage = Raster<glm::vec3>;  ///< linear light, not clamped
+using LinearImage = Raster<glm::vec3>;  ///< linear light times alpha, not clamped
 using DepthImage = Raster<float>;       ///< reversed: near/distance along the view axis, 0 is nothing
 
 }  // namespace isoglass

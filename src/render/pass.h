@@ -16,13 +16,13 @@ class DrawRecorder;
 
 /// Images that passes write and later ones read. The number is the texture unit at which shaders read it.
 enum class Target {
-    opaqueColor,       ///< RGB linear, 32-bit float
+    opaqueColor,       ///< RGB linear times alpha, 32-bit float; alpha is 1 but for the background's
     opaqueDepth,       ///< 32-bit float, reversed; only opaque things write it
     transmittance,     ///< product of (1 - opacity), 32-bit float
     emission,          ///< RGB linear, 32-bit float
     nearestBackDepth,  ///< nearer one of opaqueDepth and the nearest semi-transparent back face
-    linearImage,       ///< the picture before exposure, RGB 32-bit float, size of the image
-    srgbImage,         ///< the picture, 8 bits, size of the image
+    linearImage,       ///< the picture before exposure, RGB times alpha, 32-bit float, size of the image
+    srgbImage,         ///< the picture with straight alpha, 8 bits, size of the image
 };
 inline constexpr std::size_t kTargetCount = 7;
 

@@ -28,8 +28,8 @@ std::optional<Target> depthTarget(const PassDeclaration& pass) {
     return pass.depth ? std::optional(pass.depth->target) : std::nullopt;
 }
 
-glm::vec4 fillColor(ColorWrite::Begin begin, const glm::vec3& background) {
-    if (begin == ColorWrite::Begin::fillBackground) return {background, 1};
+glm::vec4 fillColor(ColorWrite::Begin begin, const glm::vec4& background) {
+    if (begin == ColorWrite::Begin::fillBackground) return background;
     return glm::vec4(begin == ColorWrite::Begin::fillOne ? 1.0f : 0.0f);
 }
 
@@ -42,7 +42,7 @@ void copyDepth(Target from, Target to, RenderTargets& targets) {
 }
 
 void fillTargets(const PassDeclaration& pass, RenderTargets& targets, const gl::Framebuffer& framebuffer,
-                 const glm::vec3& background) {
+                 const glm::vec4& background) {
     for (std::size_t i = 0; i < pass.writes.size(); ++i) {
         if (pass.writes[i].begin == ColorWrite::Begin::keep) continue;
         const glm::vec4 color = fillColor(pass.writes[i].begin, background);
@@ -83,7 +83,7 @@ void checkInterface(const PassDeclaration& pass, const gl::Program& program) {
 }
 
 void PassExecutor::run(std::span<const PassDeclaration> passes, RenderTargets& targets,
-                       const glm::vec3& background, DrawRecorder& recorder,
+                       const glm::vec4& background, DrawRecorder& recorder,
                        std::vector<PassTiming>* timings) {
     checkDataFlow(passes);
     for (const PassDeclaration& pass : passes) {
@@ -103,7 +103,7 @@ const gl::Program& PassExecutor::program(const PassDeclaration& pass) {
     return programs_.emplace(key, std::move(made)).first->second;
 }
 
-void PassExecutor::runPass(const PassDeclaration& pass, RenderTargets& targets, const glm::vec3& background,
+void PassExecutor::runPass(const PassDeclaration& pass, RenderTargets& targets, const glm::vec4& background,
                            DrawRecorder& recorder) {
     const gl::Program& shaders = program(pass);
     const DebugGroup group(passName(pass.kind));
@@ -122,7 +122,7 @@ void PassExecutor::runPass(const PassDeclaration& pass, RenderTargets& targets, 
 }
 
 PassTiming PassExecutor::timed(const PassDeclaration& pass, RenderTargets& targets,
-                               const glm::vec3& background, DrawRecorder& recorder) {
+                               const glm::vec4& background, DrawRecorder& recorder) {
     const std::string label(passName(pass.kind));
     if (!context_.isSoftware()) {
         const gl::TimerQuery query;

@@ -35,16 +35,17 @@ class PassExecutor {
   public:
     PassExecutor(gl::Context& context, gl::StateCache& state) : context_(context), state_(state) {}
 
-    /// With `timings`, appends one entry a pass; this waits for the GPU. Programs are made when a pass
-    /// first needs them. Throws Error for a shader that the driver refuses.
-    void run(std::span<const PassDeclaration> passes, RenderTargets& targets, const glm::vec3& background,
+    /// `background` is multiplied by its alpha. With `timings`, appends one entry a pass; this waits for the
+    /// GPU. Programs are made when a pass first needs them. Throws Error for a shader that the driver
+    /// refuses.
+    void run(std::span<const PassDeclaration> passes, RenderTargets& targets, const glm::vec4& background,
              DrawRecorder& recorder, std::vector<PassTiming>* timings);
 
   private:
     const gl::Program& program(const PassDeclaration& pass);
-    void runPass(const PassDeclaration& pass, RenderTargets& targets, const glm::vec3& background,
+    void runPass(const PassDeclaration& pass, RenderTargets& targets, const glm::vec4& background,
                  DrawRecorder& recorder);
-    PassTiming timed(const PassDeclaration& pass, RenderTargets& targets, const glm::vec3& background,
+    PassTiming timed(const PassDeclaration& pass, RenderTargets& targets, const glm::vec4& background,
                      DrawRecorder& recorder);
 
     gl::Context& context_;

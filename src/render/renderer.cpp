@@ -46,7 +46,8 @@ void Renderer::render(const FrameDescription& frame) {
                        .separatePasses = frame.separatePasses});
     std::vector<PassDeclaration> passes = declarePasses(plan_);
     if (frame.wireframe) drawWireframe(passes);
-    executor_.run(passes, targets_, frame.background, recorder_, timing_ ? &timings_ : nullptr);
+    const glm::vec4 background(frame.background * frame.backgroundOpacity, frame.backgroundOpacity);
+    executor_.run(passes, targets_, background, recorder_, timing_ ? &timings_ : nullptr);
     context_.debugLog().throwIfAny("frame");
 }
 

@@ -40,10 +40,12 @@ class Renderer {
     /// One entry a pass of the last frame; empty with timing off.
     const std::vector<PassTiming>& timings() const { return timings_; }
 
-    /// The last frame before exposure, not clamped. Reading waits for the GPU. All three throw
-    /// std::logic_error before the first frame.
+    /// The last frame before exposure, not clamped; with a transparent background, times alpha. Reading
+    /// waits for the GPU. All three throw std::logic_error before the first frame.
     LinearImage readLinear();
-    /// The last frame after exposure and the sRGB curve; alpha is 255.
+    /// The last frame after exposure and the sRGB curve, with straight alpha: 1 - (1 - A) prod(1 - a_i),
+    /// where A is 1 on opaque surfaces and the background's opacity beside them; 255 over an opaque
+    /// background. Light that a method adds beyond alpha is clamped.
     Image readSrgb();
     /// Depth of what is opaque, in samples (`supersample` times the image's size).
     DepthImage readDepth();

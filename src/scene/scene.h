@@ -54,7 +54,9 @@ struct ClockMap {
 
 struct Volume {
     std::string name;
-    std::filesystem::path series;  ///< absolute, or relative to the working directory
+    /// Absolute, or relative to the working directory. The name of the file may be a pattern with * and ?.
+    std::filesystem::path series;
+    std::vector<std::filesystem::path> moreSeries;  ///< more files or patterns: one series in all
     std::string grid;              ///< name that the series must have; empty takes any
     Placement place;
     ClockMap time;
@@ -120,6 +122,7 @@ struct ImageSettings {
     LinearColor background{0.00518151652f, 0.00699541019f, 0.00913405884f};  ///< #101418
     float exposure = 1;   ///< linear factor before the sRGB curve
     int supersample = 1;  ///< samples along each side of a pixel: 1, or 2 for four samples a pixel
+    float backgroundOpacity = 1;  ///< below 1 pictures have alpha
 
     friend bool operator==(const ImageSettings&, const ImageSettings&) = default;
 };

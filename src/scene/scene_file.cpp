@@ -98,21 +98,30 @@ ClockMap readClock(const JsonNode& node) {
     return clock;
 }
 
-std::filesystem::path readSeries(const JsonNode& node, const std::filesystem::path& baseFolder) {
-    const std::string importHint = "import them into one .vdb first: isoglass import";
-    if (node.value().is_array()) node.failUnavailable("a list of series files", importHint);
-    const std::string& text = node.text();
-    if (text.empty()) node.failExpected("the path of a series");
-    if (text.find_first_of("*?") != std::string::npos) {
-        node.failUnavailable("a pattern of series files", importHint);
+std::filesystem::path readSeriesPath(const JsonNode& node, const std::filesystem::path& baseFolder) {
+    if (!node.value().is_string() || node.text().empty()) node.failExpected("the path of a series");
+    const std::filesystem::path path = (baseFolder / node.text()).lexically_normal();
+    if (std::filesystem::path(node.text()).parent_path().string().find_first_of("*?") != std::string::npos) {
+        node.fail("a pattern stands in the name of a folder", "put * and ? into the name of the file");
     }
-    return (baseFolder / text).lexically_normal();
+    return path;
+}
+
+void readSeries(const JsonNode& node, const std::filesystem::path& baseFolder, Volume& volume) {
+    if (!node.value().is_array()) {
+        volume.series = readSeriesPath(node, baseFolder);
+        return;
+    }
+    if (node.size() == 0) node.fail("expected at least one file, found none");
+    volume.series = readSeriesPath(node.item(0), baseFolder);
+    for (std::size_t i = 1; i < node.size(); ++i)
+        volume.moreSeries.push_back(readSeriesPath(node.item(i), baseFolder));
 }
 
 Volume readVolume(const JsonNode& node, const std::filesystem::path& baseFolder) {
     node.object();
     Volume volume;
-    volume.series = readSeries(node.require("series"), baseFolder);
+    readSeries(node.require("series"), baseFolder, volume);
     const auto name = node.find("name");
     volume.name = name ? name->text() : volume.series.stem().string();
     if (const auto grid = node.find("grid")) volume.grid = grid->text();
@@ -210,6 +219,13 @@ Camera readCamera(const JsonNode& node) {
     return camera;
 }
 
+void readBackground(const JsonNode& node, ImageSettings& image) {
+    const auto backdrop = node.value().is_string() ? backdropFromText(node.text()) : std::nullopt;
+    if (!backdrop) node.failExpected("\"transparent\" or an sRGB colour \"#rrggbb\" or \"#rrggbbaa\"");
+    image.background = backdrop->color;
+    image.backgroundOpacity = backdrop->opacity;
+}
+
 ImageSettings readImage(const JsonNode& node) {
     node.object();
     ImageSettings image;
@@ -217,7 +233,7 @@ ImageSettings readImage(const JsonNode& node) {
         if (size->size() != 2) size->failExpected("[width, height]");
         image.size = {size->item(0).integer(1, kLargestImage), size->item(1).integer(1, kLargestImage)};
     }
-    if (const auto background = node.find("background")) image.background = readColor(*background);
+    if (const auto background = node.find("background")) readBackground(*background, image);
     if (const auto samples = node.find("samples")) {
         const int count = samples->integer(1, 64);
         if (count != 1 && count != 4) {
@@ -320,7 +336,7 @@ Scene parseScene(std::string_view text, const std::filesystem::path& baseFolder,
     return readScene(JsonNode(document, nameForErrors), baseFolder);
 }
 
-Scene loadScene(const std::filesystem::path& file) {
+std::string readSceneText(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     if (!stream)
         throw Error("cannot open the scene file: " + std::string(std::strerror(errno)), file.string());
@@ -330,7 +346,11 @@ Scene loadScene(const std::filesystem::path& file) {
     } catch (const std::ios_base::failure&) {
         throw Error("cannot read the scene file: " + std::string(std::strerror(errno)), file.string());
     }
-    return parseScene(text, file.parent_path(), file.string());
+    return text;
+}
+
+Scene loadScene(const std::filesystem::path& file) {
+    return parseScene(readSceneText(file), file.parent_path(), file.string());
 }
 
 }  // namespace isoglass

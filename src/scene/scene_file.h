@@ -15,6 +15,9 @@ namespace isoglass {
 /// then `Scene::notes` says so.
 Scene loadScene(const std::filesystem::path& file);
 
+/// The text of a scene file. Throws Error where it cannot be read.
+std::string readSceneText(const std::filesystem::path& file);
+
 /// The same for a text in memory: paths are relative to `baseFolder`, messages call it `nameForErrors`.
 Scene parseScene(std::string_view text, const std::filesystem::path& baseFolder,
                  const std::string& nameForErrors);

@@ -48,6 +48,10 @@ Json surface(const Surface& surface) {
 
 Json volume(const Volume& volume, const std::filesystem::path& baseFolder) {
     Json json{{"name", volume.name}, {"series", seriesPath(volume.series, baseFolder)}};
+    if (!volume.moreSeries.empty()) {
+        json["series"] = Json::array({json["series"]});
+        for (const auto& file : volume.moreSeries) json["series"].push_back(seriesPath(file, baseFolder));
+    }
     if (!volume.grid.empty()) json["grid"] = volume.grid;
     const glm::dvec4& rotate = volume.place.rotate;
     json["place"] = {{"translate", vector(volume.place.translate)},
@@ -96,10 +100,11 @@ std::string toJson(const Scene& scene, const std::filesystem::path& baseFolder) 
                     {"duration", scene.time.duration},
                     {"fps", scene.time.fps}};
     json["camera"] = camera(scene.camera);
-    json["image"] = {{"size", Json::array({scene.image.size.x, scene.image.size.y})},
-                     {"background", hexFromLinear(scene.image.background)},
-                     {"samples", scene.image.supersample * scene.image.supersample},
-                     {"exposure", shortest(scene.image.exposure)}};
+    json["image"] = {
+        {"size", Json::array({scene.image.size.x, scene.image.size.y})},
+        {"background", textFromBackdrop({scene.image.background, scene.image.backgroundOpacity})},
+        {"samples", scene.image.supersample * scene.image.supersample},
+        {"exposure", shortest(scene.image.exposure)}};
     json["lighting"] = {{"ambient", shortest(scene.lighting.ambient)},
                         {"diffuse", shortest(scene.lighting.diffuse)},
                         {"specular", shortest(scene.lighting.specular)},

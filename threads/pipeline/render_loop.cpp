@@ -98,6 +98,7 @@ FrameDescription describeFrame(const Scene& scene, const RenderView& view) {
     FrameDescription frame;
     frame.camera = {view.camera.eye, view.camera.target, scene.camera.up, scene.camera.fovDegrees, view.size};
     frame.background = scene.image.background;
+    frame.backgroundOpacity = scene.image.backgroundOpacity;
     frame.exposure = scene.image.exposure;
     frame.lighting = scene.lighting;
     frame.method = scene.transparency;

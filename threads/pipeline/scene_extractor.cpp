@@ -1,8 +1,5 @@
 #include "pipeline/scene_extractor.h"
 
-#include "base/error.h"
-#include "volume/calendar.h"
-
 #include <glm/matrix.hpp>
 
 #include <algorithm>
@@ -15,34 +12,14 @@ namespace {
 /// Steps into which what is left of the timeline is cut to find the key frames ahead.
 constexpr int kLookAheadSteps = 64;
 
-double axisTime(const SceneTime& time, const ClockMap& clock, const TimeAxis& axis) {
-    const double seconds = std::holds_alternative<double>(time)
-                               ? std::get<double>(time)
-                               : axisTimeFromDate(axis, std::get<std::string>(time)) * secondsPerUnit(axis);
-    return axisTimeFromSeconds(axis, clock.offset + clock.scale * seconds);
-}
-
-PlayedSeries play(const Volume& volume, const Timeline& timeline) {
-    PlayedSeries played;
-    played.file = std::make_shared<SeriesFile>(volume.series);
-    const SeriesDescription& series = played.file->description();
-    if (!volume.grid.empty() && volume.grid != series.name) {
-        throw Error("volume '" + volume.name + "' asks for grid '" + volume.grid +
-                        "', but the series holds '" + series.name + "'",
-                    volume.series.string(), "name that grid, or leave \"grid\" out");
-    }
-    played.from = axisTime(timeline.from, volume.time, series.time);
-    played.to = axisTime(timeline.to, volume.time, series.time);
-    return played;
-}
-
 }  // namespace
 
 SceneExtractor::SceneExtractor(const Scene& scene, Options options) : scene_(scene), options_(options) {
     std::vector<std::shared_ptr<const SeriesFile>> files;
     for (const Volume& volume : scene_.volumes) {
-        series_.push_back(play(volume, scene_.time));
-        files.push_back(series_.back().file);
+        files.push_back(openSeries(volume));
+        checkGrid(volume, files.back()->description());
+        series_.push_back(playSeries(volume, scene_.time, files.back()));
     }
     cache_ = std::make_unique<KeyFrameCache>(std::move(files), options_.memoryBytes);
 }

@@ -2,6 +2,7 @@
 
 #include "mesh/surface_mesh.h"
 #include "pipeline/key_frame_cache.h"
+#include "pipeline/played_series.h"
 #include "scene/scene.h"
 #include "surface/extract.h"
 #include "volume/time_axis.h"
@@ -27,15 +28,6 @@ struct SceneMeshes {
     std::vector<ExtractedSurface> surfaces;
     std::vector<TimeSample> times;  ///< one a volume
     std::vector<double> axisTimes;  ///< one a volume, in its series' own units
-};
-
-/// What is known of a volume's series and of the time that it plays.
-struct PlayedSeries {
-    std::shared_ptr<const SeriesFile> file;
-    double from = 0;  ///< in the series' own units
-    double to = 0;
-
-    double timeAt(double position) const { return from + position * (to - from); }
 };
 
 /// Turns moments of a scene into meshes: reads, interpolates in time, extracts.

@@ -95,6 +95,27 @@ TEST(SceneFile, EndOfTimeIsItsBeginningWhereNotGiven) {
     EXPECT_EQ(scene.time.to, SceneTime("2001-02-03"));
 }
 
+TEST(SceneFile, SeriesMayBeAListOrAPattern) {
+    const Scene scene = parse(R"({"version": 1, "volumes": [
+        {"series": ["a.vdb", "../b-*.vdb", "/c.vdb"], "surfaces": [{"iso": 2}]}]})");
+    EXPECT_EQ(scene.volumes[0].series, "scenes/a.vdb");
+    EXPECT_EQ(scene.volumes[0].moreSeries, (std::vector<std::filesystem::path>{"b-*.vdb", "/c.vdb"}));
+    EXPECT_EQ(parseScene(toJson(scene), "", "round trip"), scene) << toJson(scene);
+}
+
+TEST(SceneFile, TransparentBackgroundIsRead) {
+    for (const auto& [text, opacity] : {std::pair("transparent", 0.0f), std::pair("#ffffff33", 0.2f)}) {
+        Scene scene = parse(kSmallest);
+        const std::string json = R"({"version": 1, "volumes": [{"series": "a.vdb", "surfaces": [{"iso": 2}]}],
+                                     "image": {"background": ")" +
+                                 std::string(text) + "\"}}";
+        scene.image.background = LinearColor(opacity > 0 ? 1 : 0);
+        scene.image.backgroundOpacity = opacity;
+        EXPECT_EQ(parse(json), scene);
+        EXPECT_EQ(parseScene(toJson(scene, "scenes"), "scenes", "round trip"), scene) << toJson(scene);
+    }
+}
+
 TEST(SceneFile, RoundTripThroughJsonKeepsEverything) {
     for (const char* text : {kSmallest, kFull}) {
         const Scene scene = parse(text);
