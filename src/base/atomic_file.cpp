@@ -23,6 +23,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& finalPath) : final_(finalPat
     std::string name(1, '.');
     name.append(final_.stem().string()).append(".part-").append(std::to_string(::getpid()));
     temporary_ = folder / name.append(final_.extension().string());
+    noted_.emplace(temporary_);
     const int file = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (file < 0) {
         throw Error(std::string("cannot write: ") + std::strerror(errno), final_.string(),
@@ -49,6 +50,16 @@ void AtomicFile::commit() {
     std::filesystem::rename(temporary_, final_, failure);
     if (failure) throw Error("cannot write: " + failure.message(), final_.string());
     committed_ = true;
+}
+
+bool isSpecialFile(const std::filesystem::path& path) {
+    std::error_code ignored;
+    const auto status = std::filesystem::status(path, ignored);
+    return std::filesystem::is_character_file(status) || std::filesystem::is_fifo(status);
+}
+
+void checkPlace(const std::filesystem::path& finalPath) {
+    const AtomicFile probe(finalPath);
 }
 
 }  // namespace isoglass

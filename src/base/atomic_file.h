@@ -1,13 +1,17 @@
 #pragma once
 
+#include "base/signal_cleanup.h"
+
 #include <filesystem>
+#include <optional>
 
 namespace isoglass {
 
 /// A file that appears under its name only when it is whole.
 ///
 /// Write to `temporaryPath()`, close it, call `commit()`. Without `commit` the destructor removes the
-/// temporary file, and whatever lay under the final name stays as it was.
+/// temporary file, and whatever lay under the final name stays as it was. A signal that ends the program
+/// by `removeNotedFiles` removes it too.
 class AtomicFile {
   public:
     /// Picks a temporary name beside `finalPath`, with the same extension. Throws Error where the folder
@@ -25,7 +29,15 @@ class AtomicFile {
   private:
     std::filesystem::path final_;
     std::filesystem::path temporary_;
+    std::optional<NotedFile> noted_;
     bool committed_ = false;
 };
+
+/// A device or pipe: there is nothing to rename, and renaming would replace it by a file.
+bool isSpecialFile(const std::filesystem::path& path);
+
+/// Throws what an AtomicFile for `finalPath` would throw, and leaves nothing: to be asked before the work
+/// whose result goes there.
+void checkPlace(const std::filesystem::path& finalPath);
 
 }  // namespace isoglass

@@ -14,6 +14,6 @@ std::string sentence(const std::string& what, const std::string& where, const st
 }  // namespace
 
 Error::Error(const std::string& what, const std::string& where, const std::string& hint)
-    : std::runtime_error(sentence(what, where, hint)), where_(where) {}
+    : std::runtime_error(sentence(what, where, hint)), problem_(what), where_(where), hint_(hint) {}
 
 }  // namespace isoglass

@@ -14,10 +14,14 @@ class Error : public std::runtime_error {
     /// `where` names the place: a file, a file with a JSON pointer, a variable, a key frame.
     Error(const std::string& what, const std::string& where, const std::string& hint = {});
 
+    const std::string& problem() const { return problem_; }  ///< what is wrong, alone
     const std::string& where() const { return where_; }
+    const std::string& hint() const { return hint_; }
 
   private:
+    std::string problem_;
     std::string where_;
+    std::string hint_;
 };
 
 }  // namespace isoglass

@@ -53,17 +53,10 @@ void writeBytes(const std::filesystem::path& path, const std::filesystem::path& 
     }
 }
 
-bool isSpecialFile(const std::filesystem::path& path) {
-    std::error_code ignored;
-    const auto status = std::filesystem::status(path, ignored);
-    return std::filesystem::is_character_file(status) || std::filesystem::is_fifo(status);
-}
-
 }  // namespace
 
 void writePng(const std::filesystem::path& path, const Image& image) {
     const std::vector<std::byte> bytes = encode(path, image);
-    // Renaming over a device would replace it by a file.
     if (isSpecialFile(path)) return writeBytes(path, path, bytes);
     AtomicFile file(path);
     writeBytes(file.temporaryPath(), path, bytes);
