@@ -1,7 +1,9 @@
 #include "app/command_line.h"
 
 #include "app/commands.h"
+#include "app/stop_signal.h"
 #include "app/view/controls.h"
+#include "base/error.h"
 
 #include <CLI/CLI.hpp>
 
@@ -120,10 +122,31 @@ void addMesh(CLI::App& app, const CommonOptions& common, std::function<void()>& 
     CLI::App* verb = app.add_subcommand("mesh", "Write one iso-surface at full resolution to a mesh file");
     verb->add_option("SERIES", command->series, "Series of IsoGlass (.vdb)")->required();
     verb->add_option("--iso", command->iso, "Iso-value")->required();
-    verb->add_option("--time", command->time, "Time in the series' own units; default: the first key frame");
-    verb->add_option("-o,--output", command->out, "Mesh file: .ply, .obj, .stl or .off")->required();
+    CLI::Option* time = verb->add_option("--time", command->time,
+                                         "Time in the series' own units; default: the first key frame");
+    verb->add_option("-o,--output", command->out, "Mesh file: .ply, .obj, .stl or .off; with --series: .csv")
+        ->required();
+    CLI::Option* series =
+        verb->add_flag("--series", command->wholeSeries,
+                       "Instead of a mesh write a table (CSV) of its area, enclosed volume, "
+                       "components and Euler number over time")
+            ->excludes(time);
+    verb->add_option("--steps", command->steps, "With --series: moments from one key frame to the next")
+        ->check(CLI::Range(1, 1'000'000))
+        ->needs(series);
     verb->add_flag("--below", command->insideIsBelow, "The inside is where the field is below the iso-value");
     verb->callback([command, &common, &run] { run = [command, &common] { runMesh(*command, common); }; });
+}
+
+void addValidate(CLI::App& app, std::function<void()>& run, int& status) {
+    auto command = std::make_shared<ValidateCommand>();
+    CLI::App* verb = app.add_subcommand(
+        "validate", "Say what is wrong with a scene and its series, or with a series: all of it, and where");
+    verb->add_option("FILE", command->file, "Scene file (.json) or series (.vdb)")->required();
+    verb->add_flag("--json", command->json, "Print JSON");
+    verb->callback([command, &run, &status] {
+        run = [command, &status] { status = runValidate(*command) ? 0 : kFailure; };
+    });
 }
 
 void addPlan(CLI::App& app, std::function<void()>& run) {
@@ -162,6 +185,7 @@ int runCommandLine(int argc, char** argv) {
     CLI::App app("IsoGlass plays 4D scalar time series as iso-surfaces.", "isoglass");
     CommonOptions common;
     std::function<void()> run;
+    int status = 0;
     app.set_version_flag("--version", "isoglass " ISOGLASS_VERSION);
     app.require_subcommand(1);
     app.fallthrough();
@@ -174,6 +198,7 @@ int runCommandLine(int argc, char** argv) {
     addRender(app, common, run);
     addView(app, common, run);
     addMesh(app, common, run);
+    addValidate(app, run, status);
     addPlan(app, run);
     addBench(app, common, run);
     try {
@@ -181,13 +206,19 @@ int runCommandLine(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return reportUsage(app, error);
     }
+    installStopSignals();
     try {
         run();
+        if (!std::cout.flush()) throw Error("cannot write what was asked for", "standard output");
+    } catch (const Stopped& stopped) {
+        const std::string kept = stopped.what();
+        std::cerr << "isoglass: stopped" << (kept.empty() ? "" : ": " + kept) << std::endl;
+        endByStopSignal();
     } catch (const std::exception& error) {
         std::cerr << "isoglass: error: " << error.what() << '\n';
         return kFailure;
     }
-    return 0;
+    return status;
 }
 
 }  // namespace isoglass

@@ -60,8 +60,19 @@ struct MeshCommand {
     double iso = 0;
     std::optional<double> time;  ///< in the series' own units; the first key frame's where not given
     bool insideIsBelow = false;
+    bool wholeSeries = false;  ///< measures the surface over time, see `runMeshSeries`
+    int steps = 1;             ///< moments from one key frame to the next that are measured
 };
 void runMesh(const MeshCommand& command, const CommonOptions& common);
+/// Area, enclosed volume, components, Euler number of the surface over time, as CSV.
+void runMeshSeries(const MeshCommand& command, const CommonOptions& common);
+
+struct ValidateCommand {
+    std::filesystem::path file;  ///< a scene or a series
+    bool json = false;
+};
+/// Reports everything that is wrong; false where there is an error.
+bool runValidate(const ValidateCommand& command);
 
 struct PlanCommand {
     std::filesystem::path scene;

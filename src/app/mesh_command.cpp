@@ -1,6 +1,8 @@
 #include "app/commands.h"
 #include "app/text.h"
+#include "base/atomic_file.h"
 #include "meshio/mesh_file.h"
+#include "meshio/mesh_format.h"
 #include "surface/extract.h"
 #include "volume/time_axis.h"
 
@@ -26,6 +28,9 @@ TimedField readField(const SeriesFile& file, double time) {
 }  // namespace
 
 void runMesh(const MeshCommand& command, const CommonOptions& common) {
+    if (command.wholeSeries) return runMeshSeries(command, common);
+    meshFormat(command.out);  // before the work: an unknown extension is an error
+    checkPlace(command.out);
     const SeriesFile file(command.series);
     const double time = command.time.value_or(file.description().time.times.front());
     const Extraction result = extractSurface(file.description().lattice, readField(file, time),

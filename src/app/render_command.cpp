@@ -1,88 +1,32 @@
 #include "app/commands.h"
 #include "app/progress.h"
+#include "app/render_identity.h"
+#include "app/render_output.h"
+#include "app/stop_signal.h"
 #include "app/text.h"
-#include "app/video.h"
 #include "base/error.h"
 #include "pipeline/scene_extractor.h"
-#include "render/png_file.h"
 #include "scene/scene_file.h"
 
 #include <algorithm>
-#include <iomanip>
-#include <iostream>
 #include <set>
-#include <sstream>
 
 namespace isoglass {
 
 namespace {
 
-constexpr std::string_view kFrameMark = "{frame}";
 constexpr int kLargestSide = 16384;
 
-/// Where frames go.
-class Sink {
-  public:
-    virtual ~Sink() = default;
-    virtual void add(std::int64_t frame, const Image& image) = 0;
-    virtual void finish() {}
-};
-
-class StillSink final : public Sink {
-  public:
-    explicit StillSink(std::filesystem::path file) : file_(std::move(file)) {}
-    void add(std::int64_t, const Image& image) override { writePng(file_, image); }
-
-  private:
-    std::filesystem::path file_;
-};
-
-class SequenceSink final : public Sink {
-  public:
-    explicit SequenceSink(std::string pattern) : pattern_(std::move(pattern)) {}
-    void add(std::int64_t frame, const Image& image) override {
-        std::ostringstream digits;
-        digits << std::setw(5) << std::setfill('0') << frame;
-        std::string name = pattern_;
-        writePng(name.replace(name.find(kFrameMark), kFrameMark.size(), digits.str()), image);
-    }
-
-  private:
-    std::string pattern_;
-};
-
-class VideoSink final : public Sink {
-  public:
-    VideoSink(const std::filesystem::path& file, glm::ivec2 size, double fps) : video_(file, size, fps) {}
-    void add(std::int64_t, const Image& image) override { video_.add(image); }
-    void finish() override { video_.finish(); }
-
-  private:
-    VideoWriter video_;
-};
-
-bool isStill(const std::string& out) {
-    return out.find(kFrameMark) == std::string::npos && std::filesystem::path(out).extension() == ".png";
-}
-
-std::unique_ptr<Sink> makeSink(const std::string& out, const Scene& scene) {
-    const std::string extension = std::filesystem::path(out).extension();
-    if (isStill(out)) return std::make_unique<StillSink>(out);
-    if (extension == ".png") return std::make_unique<SequenceSink>(out);
-    if (extension == ".mp4") return std::make_unique<VideoSink>(out, scene.image.size, scene.time.fps);
-    throw Error("cannot tell what to write", out,
-                "end the name in .png (with {frame} for a sequence) or .mp4");
-}
-
-FrameRange chooseFrames(const RenderCommand& command, const Scene& scene) {
+FrameRange chooseFrames(const RenderCommand& command, const RenderOutput& output, const Scene& scene) {
     const std::int64_t count = scene.time.frameCount();
-    FrameRange range = command.frames.value_or(FrameRange{0, isStill(command.out) ? 0 : count - 1});
+    const bool still = output.kind == RenderOutput::Kind::still;
+    FrameRange range = command.frames.value_or(FrameRange{0, still ? 0 : count - 1});
     if (range.first < 0 || range.last < range.first || range.last >= count) {
         throw Error("frames " + std::to_string(range.first) + " to " + std::to_string(range.last) +
                         " are not in the scene, which has frames 0 to " + std::to_string(count - 1),
                     "--frames");
     }
-    if (isStill(command.out) && range.first != range.last) {
+    if (still && range.first != range.last) {
         throw Error("one picture holds one frame", command.out,
                     "put {frame} in the name, or choose one frame");
     }
@@ -138,24 +82,62 @@ class Notes {
     std::set<std::string> said_;
 };
 
+/// The frames that the sink lacks, as runs without a gap.
+std::vector<FrameRange> missingFrames(FrameRange range, const FrameSink& sink) {
+    std::vector<FrameRange> runs;
+    for (std::int64_t frame = range.first; frame <= range.last; ++frame) {
+        if (sink.has(frame)) continue;
+        if (!runs.empty() && runs.back().last == frame - 1) {
+            runs.back().last = frame;
+        } else {
+            runs.push_back({frame, frame});
+        }
+    }
+    return runs;
+}
+
+void renderMissing(const Scene& scene, SceneExtractor& extractor, FrameRange range, FrameSink& sink) {
+    const std::vector<FrameRange> runs = missingFrames(range, sink);
+    std::int64_t count = 0;
+    for (const FrameRange run : runs) count += run.last - run.first + 1;
+    std::int64_t done = 0;
+    Notes notes(scene);
+    const StopScope scope;
+    try {
+        Progress progress("rendering", "frames", count);
+        for (const FrameRange run : runs) {
+            renderFrames(scene, extractor, run, [&](const RenderedFrame& frame) {
+                if (stopRequested()) return false;
+                notes.check(frame);
+                sink.add(frame.frame, frame.image);
+                progress.update(++done);
+                return true;
+            });
+            if (stopRequested()) break;
+        }
+    } catch (const Error&) {
+        if (const std::string kept = sink.kept(); !kept.empty()) printNote(kept);
+        throw;
+    }
+    if (done < count) throw Stopped(sink.kept());
+}
+
 }  // namespace
 
 void runRender(const RenderCommand& command, const CommonOptions& common) {
+    const RenderOutput output = RenderOutput::fromName(command.out);
     Scene scene = loadScene(command.scene);
     applyOverrides(command, scene);
+    if (output.kind == RenderOutput::Kind::video && scene.image.backgroundOpacity < 1) {
+        throw Error("a video has no transparent background", command.scene.string() + ", /image/background",
+                    "render to frame-{frame}.png, or choose an opaque color");
+    }
     for (const std::string& note : scene.notes) printNote(note);
-    const FrameRange range = chooseFrames(command, scene);
+    const FrameRange range = chooseFrames(command, output, scene);
     SceneExtractor extractor(scene, {.memoryBytes = common.memoryBytes, .threads = common.threads});
-    const std::unique_ptr<Sink> sink = makeSink(command.out, scene);
-    Notes notes(scene);
-    const std::int64_t count = range.last - range.first + 1;
-    Progress progress("rendering", "frames", count);
-    renderFrames(scene, extractor, range, [&](const RenderedFrame& frame) {
-        notes.check(frame);
-        sink->add(frame.frame, frame.image);
-        progress.update(frame.frame - range.first + 1);
-        return true;
-    });
+    const std::unique_ptr<FrameSink> sink =
+        makeSink(output, scene, range, [&] { return renderIdentity(scene, extractor); });
+    renderMissing(scene, extractor, range, *sink);
     sink->finish();
 }
 

@@ -1,26 +1,24 @@
 #pragma once
 
+#include "app/ffmpeg.h"
 #include "base/atomic_file.h"
 #include "render/image.h"
 
-#include <sys/types.h>
-
-#include <cstdint>
 #include <filesystem>
-#include <memory>
-#include <string>
+#include <vector>
 
 namespace isoglass {
 
 /// Encodes frames to an MP4 (H.264) through the ffmpeg program.
 ///
-/// The file appears under its name only after `finish`. Use from one thread.
+/// The file appears under its name only after `finish`. The same frames give the same bytes. Use from one
+/// thread.
 class VideoWriter {
   public:
-    /// Starts ffmpeg. Throws Error where it cannot be found or the file cannot be written.
-    VideoWriter(const std::filesystem::path& file, glm::ivec2 size, double fps);
-    /// Ends ffmpeg and removes what was not finished.
-    ~VideoWriter();
+    /// Starts ffmpeg. Throws Error where it cannot be run or the file cannot be written; `named` is the
+    /// file that messages name.
+    VideoWriter(const std::filesystem::path& file, glm::ivec2 size, double fps,
+                const std::filesystem::path& named);
 
     /// Appends one frame of the size given at the start. Throws Error, with ffmpeg's last words, where
     /// encoding has failed.
@@ -30,20 +28,13 @@ class VideoWriter {
     void finish();
 
   private:
-    /// What ffmpeg says; removed at the end.
-    struct Log {
-        std::filesystem::path path;
-        ~Log();
-    };
-
-    [[noreturn]] void fail();
-    int waitForEnd();
-
-    std::filesystem::path file_;
     AtomicFile target_;
-    Log log_;
-    pid_t process_ = -1;
-    int pipe_ = -1;
+    Ffmpeg ffmpeg_;
 };
+
+/// Puts videos of `VideoWriter`, all of one size and rate, one after the other into `out` without encoding
+/// them again. They lie in `folder`, where a list of them is made for a moment. Throws Error.
+void joinVideos(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& names,
+                const std::filesystem::path& out);
 
 }  // namespace isoglass

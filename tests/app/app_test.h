@@ -31,6 +31,11 @@ class AppTest : public testing::Test {
         return result;
     }
 
+    StartedProgram start(const std::vector<std::string>& arguments, RunOptions options = {}) const {
+        options.folder = folder_.path();
+        return StartedProgram(ISOGLASS_PROGRAM, arguments, options);
+    }
+
     /// ocean.vdb: twelve months of temperature.
     void importOcean() const { run({"import", ISOGLASS_DATA_FOLDER "/ocean_excerpt.nc", "-o", "ocean.vdb"}); }
 

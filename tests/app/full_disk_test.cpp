@@ -40,6 +40,12 @@ TEST_F(FullDisk, MeshLeavesNothingBehind) {
     }
 }
 
+TEST_F(FullDisk, TableLeavesNothingBehind) {
+    for (const std::uint64_t bytes : {0, 100}) {
+        expectNothingLeft({"mesh", "ocean.vdb", "--iso", "15", "--series"}, "new.csv", bytes);
+    }
+}
+
 TEST_F(FullDisk, StillLeavesNothingBehind) {
     for (const std::uint64_t bytes : {0, 1000}) expectNothingLeft({"render", "scene.json"}, "new.png", bytes);
 }

@@ -29,6 +29,43 @@ TEST_F(Render, SizeOverridesTheScene) {
     EXPECT_EQ(picture("still.png").size, glm::ivec2(33, 17));
 }
 
+TEST_F(Render, CameraPathMovesTheCamera) {
+    writeScene(R"("lighting": {},)", "still.json");
+    const std::string scene = bytesOf("still.json");
+    const std::string eye = R"("eye": [150, -400, 165],)";
+    std::string moving = scene;
+    moving.replace(
+        moving.find(eye), eye.size(),
+        eye + R"("path": [{"at": 0, "eye": [150, -400, 165]}, {"at": 0.36, "eye": [285, -390, 165]}],)");
+    std::string arrived = scene;
+    arrived.replace(arrived.find(eye), eye.size(), R"("eye": [285, -390, 165],)");
+    std::ofstream(folder_ / "moving.json") << moving;
+    std::ofstream(folder_ / "arrived.json") << arrived;
+    const auto picture = [&](const std::string& name, int frame) {
+        const std::string frames = std::to_string(frame) + ":" + std::to_string(frame);
+        run({"render", name + ".json", "-o", name + ".png", "--frames", frames});
+        return bytesOf(name + ".png");
+    };
+    EXPECT_EQ(picture("moving", 0), picture("still", 0)) << "the first key is at 0";
+    EXPECT_EQ(picture("moving", 9), picture("arrived", 9)) << "the last key is at frame 9 of 25 a second";
+    EXPECT_NE(picture("moving", 5), picture("still", 5));
+    EXPECT_NE(picture("moving", 5), picture("arrived", 5));
+}
+
+TEST_F(Render, TransparentBackgroundIsSeenThrough) {
+    writeScene(R"("transparency": {"method": "3-pass"},)", "glass.json");
+    std::string scene = bytesOf("glass.json");
+    scene.replace(scene.find("[96, 64]"), 8, R"([96, 64], "background": "transparent")");
+    std::ofstream(folder_ / "glass.json") << scene;
+    run({"render", "glass.json", "-o", "glass.png"});
+    std::set<int> alphas;
+    for (const Rgba8 p : picture("glass.png").pixels) alphas.insert(p.a);
+    EXPECT_TRUE(alphas.contains(0)) << "beside the ocean";
+    EXPECT_TRUE(alphas.contains(255)) << "on the opaque surface";
+    EXPECT_TRUE(alphas.contains(76) || alphas.contains(77)) << "76.5: through one surface of opacity 0.3";
+    EXPECT_TRUE(alphas.contains(102)) << "through one surface of opacity 0.4";
+}
+
 TEST_F(Render, SequenceHasExactlyTheFramesAskedFor) {
     std::filesystem::create_directory(folder_ / "out");
     run({"render", "scene.json", "-o", "out/f-{frame}.png", "--frames", "2:4"});

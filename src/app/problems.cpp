@@ -1,0 +1,162 @@
+#include "app/problems.h"
+
+#include "app/text.h"
+#include "pipeline/played_series.h"
+#include "scene/scene_check.h"
+#include "scene/scene_file.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace isoglass {
+
+namespace {
+
+using Severity = Problem::Severity;
+
+/// Places read "FILE", "FILE, /POINTER" or "FILE, MORE".
+Problem fromError(const Error& error, const std::string& file) {
+    Problem problem{.what = error.problem(), .file = error.where(), .hint = error.hint()};
+    if (!error.where().starts_with(file + ", ")) return problem;
+    const std::string rest = error.where().substr(file.size() + 2);
+    problem.file = file;
+    (rest.starts_with('/') ? problem.pointer : problem.place) = rest;
+    return problem;
+}
+
+/// Checks the volumes of a scene against their series.
+class VolumeChecks {
+  public:
+    VolumeChecks(std::string sceneFile, const SceneProblems& scene, std::vector<Problem>& problems)
+        : sceneFile_(std::move(sceneFile)), scene_(scene), problems_(problems) {}
+
+    void check(std::size_t index) {
+        const Volume& volume = scene_.rest->volumes[index];
+        pointer_ = "/volumes/" + std::to_string(index);
+        if (scene_.touches(pointer_ + "/series")) return;
+        std::shared_ptr<const SeriesFile> file;
+        try {
+            file = openSeries(volume);
+        } catch (const Error& error) {
+            return add(pointer_ + "/series", error.problem() + " (" + error.where() + ")", error.hint());
+        }
+        const SeriesDescription& series = file->description();
+        try {
+            checkGrid(volume, series);
+        } catch (const Error& error) {
+            add(pointer_ + "/grid", error.problem() + " (" + error.where() + ")", error.hint());
+        }
+        checkSurfaces(volume, series, checkTimes(volume, file));
+    }
+
+  private:
+    /// Key frames that are shown, both ends included.
+    struct Shown {
+        std::size_t first;
+        std::size_t last;
+    };
+
+    void add(const std::string& pointer, const std::string& what, const std::string& hint = {},
+             Severity severity = Severity::error) {
+        problems_.push_back(
+            {.severity = severity, .what = what, .file = sceneFile_, .pointer = pointer, .hint = hint});
+    }
+
+    Shown checkTimes(const Volume& volume, const std::shared_ptr<const SeriesFile>& file) {
+        const TimeAxis& axis = file->description().time;
+        const Shown all{0, axis.times.size() - 1};
+        if (scene_.touches("/time") || scene_.touches(pointer_ + "/time")) return all;
+        PlayedSeries played;
+        try {
+            played = playSeries(volume, scene_.rest->time, file);
+        } catch (const Error& error) {
+            add("/time", "volume '" + volume.name + "': " + error.problem() + " (" + error.where() + ")",
+                error.hint());
+            return all;
+        }
+        const auto [from, to] = std::minmax(played.from, played.to);
+        const TimeSample first = locate(axis, from);
+        const TimeSample last = locate(axis, to);
+        if (first.where != TimeSample::Where::inside || last.where != TimeSample::Where::inside) {
+            add("/time",
+                "volume '" + volume.name + "' plays times from " + formatNumber(from) + " to " +
+                    formatNumber(to) + ", but has key frames from " + formatNumber(axis.times.front()) +
+                    " to " + formatNumber(axis.times.back()) + " (" + axis.units + ")",
+                "beyond them the nearest key frame is shown", Severity::warning);
+        }
+        if (axis.period) return all;
+        return {first.frameA, last.frameB};
+    }
+
+    void checkSurfaces(const Volume& volume, const SeriesDescription& series, Shown shown) {
+        ValueRange range{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
+        for (std::size_t i = shown.first; i <= shown.last; ++i) {
+            range.min = std::min(range.min, series.frames[i].range.min);
+            range.max = std::max(range.max, series.frames[i].range.max);
+        }
+        for (std::size_t i = 0; i < volume.surfaces.size(); ++i) {
+            const std::string place = pointer_ + "/surfaces/" + std::to_string(i) + "/iso";
+            const double iso = volume.surfaces[i].iso;
+            if (scene_.touches(place)) continue;
+            if (range.min > range.max) {
+                add(place, "every sample is missing: the surface is empty", {}, Severity::warning);
+            } else if (iso < range.min || iso > range.max) {
+                add(place,
+                    "the surface is always empty: the iso-value is " + formatNumber(iso) +
+                        ", but the field is from " + formatNumber(range.min) + " to " +
+                        formatNumber(range.max),
+                    "choose a value in between", Severity::warning);
+            } else if (series.keep && (iso < series.keep->min || iso > series.keep->max)) {
+                add(place,
+                    "the series was imported for iso-values from " + formatNumber(series.keep->min) + " to " +
+                        formatNumber(series.keep->max) + " only: this surface is wrong in places",
+                    "import it with another --keep", Severity::warning);
+            }
+        }
+    }
+
+    std::string sceneFile_;
+    const SceneProblems& scene_;
+    std::vector<Problem>& problems_;
+    std::string pointer_;
+};
+
+}  // namespace
+
+std::vector<Problem> problemsOfScene(const std::filesystem::path& file) {
+    const std::string name = file.string();
+    std::vector<Problem> problems;
+    SceneProblems scene;
+    try {
+        scene = checkScene(readSceneText(file), file.parent_path(), name);
+    } catch (const Error& error) {
+        problems.push_back(fromError(error, name));
+        return problems;
+    }
+    for (const Error& error : scene.errors) problems.push_back(fromError(error, name));
+    if (!scene.rest) return problems;
+    for (const std::string& note : scene.rest->notes)
+        problems.push_back({.severity = Severity::warning, .what = note, .file = name});
+    VolumeChecks checks(name, scene, problems);
+    for (std::size_t i = 0; i < scene.rest->volumes.size(); ++i) checks.check(i);
+    return problems;
+}
+
+std::vector<Problem> problemsOfSeries(const std::filesystem::path& file) {
+    std::vector<Problem> problems;
+    try {
+        const SeriesFile series(file);
+        for (std::size_t i = 0; i < series.description().frames.size(); ++i) {
+            try {
+                series.read(i);
+            } catch (const Error& error) {
+                problems.push_back(fromError(error, file.string()));
+            }
+        }
+    } catch (const Error& error) {
+        problems.push_back(fromError(error, file.string()));
+    }
+    return problems;
+}
+
+}  // namespace isoglass
