@@ -1,6 +1,7 @@
 #include "app/command_line.h"
 
 #include "app/commands.h"
+#include "app/import_formats.h"
 #include "app/stop_signal.h"
 #include "app/view/controls.h"
 #include "base/error.h"
@@ -44,16 +45,21 @@ glm::ivec2 imageSize(const std::string& text) {
 
 void addImport(CLI::App& app, std::function<void()>& run) {
     auto command = std::make_shared<ImportCommand>();
-    CLI::App* verb =
-        app.add_subcommand("import", "Turn a foreign series into one of IsoGlass: NetCDF, or PVM files");
-    verb->add_option("INPUT", command->inputs, "One NetCDF file, or PVM files, one a key frame")->required();
+    CLI::App* verb = app.add_subcommand("import", "Turn a foreign series into one of IsoGlass");
+    verb->footer(listImportFormats());
+    verb->add_option("INPUT", command->inputs, "One file, or several of one format in the order of time")
+        ->required();
     verb->add_option("-o,--output", command->out, "The series to write (.vdb)")->required();
     verb->add_option("--variable", command->options.variable,
                      "The variable to read, or a formula of several, such as 'speed = sqrt(U^2 + V^2)'");
     verb->add_option("--height", command->options.height,
                      "Variable or formula of the samples' world z, such as '(PH + PHB) / 9.81'");
-    verb->add_option("--times", command->options.times, "Times of the key frames, instead of the source's")
-        ->delimiter(',');
+    CLI::Option* times =
+        verb->add_option("--times", command->options.times, "Times of the key frames, instead of the source's")
+            ->delimiter(',');
+    verb->add_flag("--time-from-name", command->timeFromName,
+                   "The number that tells the files' names apart is the time of each")
+        ->excludes(times);
     verb->add_option("--tolerance", command->sparsity.tolerance,
                      "Largest change of a sample that may make the series sparser")
         ->check(CLI::NonNegativeNumber);
@@ -68,6 +74,15 @@ void addImport(CLI::App& app, std::function<void()>& run) {
         },
         "Keep what surfaces with iso-values from LO to HI need, and no more");
     verb->callback([command, &run] { run = [command] { runImport(*command); }; });
+}
+
+void addExport(CLI::App& app, std::function<void()>& run) {
+    auto command = std::make_shared<ExportCommand>();
+    CLI::App* verb = app.add_subcommand("export", "Write a series as plain numbers with a JSON description");
+    verb->add_option("SERIES", command->series, "Series of IsoGlass (.vdb)")->required();
+    verb->add_option("-o,--output", command->out, "The description (.json); the samples go into a .raw beside it")
+        ->required();
+    verb->callback([command, &run] { run = [command] { runExport(*command); }; });
 }
 
 void addInfo(CLI::App& app, std::function<void()>& run) {
@@ -194,6 +209,7 @@ int runCommandLine(int argc, char** argv) {
     app.add_option("--memory", common.memoryBytes, "Budget for key frames, such as 500MB or 2GB")
         ->transform(CLI::AsSizeValue(false));
     addImport(app, run);
+    addExport(app, run);
     addInfo(app, run);
     addRender(app, common, run);
     addView(app, common, run);

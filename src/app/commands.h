@@ -29,9 +29,16 @@ struct ImportCommand {
     std::vector<std::filesystem::path> inputs;
     std::filesystem::path out;
     ImportOptions options;
+    bool timeFromName = false;  ///< the numbers in the names are the times
     SparsityOptions sparsity;
 };
 void runImport(const ImportCommand& command);
+
+struct ExportCommand {
+    std::filesystem::path series;
+    std::filesystem::path out;  ///< a .json; the samples go into a .raw beside it
+};
+void runExport(const ExportCommand& command);
 
 struct InfoCommand {
     std::vector<std::filesystem::path> series;

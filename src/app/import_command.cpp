@@ -1,37 +1,60 @@
 #include "app/commands.h"
+#include "app/import_formats.h"
 #include "app/progress.h"
 #include "app/text.h"
 #include "base/error.h"
+#include "formats/file_names.h"
 
-#include <fstream>
+#include <algorithm>
 #include <iostream>
+#include <numeric>
 #include <string>
 
 namespace isoglass {
 
 namespace {
 
-bool isPvm(const std::filesystem::path& file) {
-    std::string magic(3, ' ');
-    std::ifstream stream(file, std::ios::binary);
-    stream.read(magic.data(), 3);
-    return stream && magic == "PVM";
-}
-
-std::unique_ptr<FrameSource> openSource(const ImportCommand& command) {
-    for (const auto& input : command.inputs) {
+void requireFiles(const std::vector<std::filesystem::path>& inputs) {
+    for (const auto& input : inputs) {
         if (!std::filesystem::exists(input)) throw Error("there is no such file", input.string());
         if (std::filesystem::is_directory(input)) {
             throw Error("this is a folder", input.string(), "name the files in it");
         }
     }
-    if (isPvm(command.inputs.front())) return openPvm(command.inputs, command.options);
-    if (command.inputs.size() > 1) {
-        throw Error(
-            "a NetCDF series is one file, but " + std::to_string(command.inputs.size()) + " were given",
-            command.inputs[1].string(), "name one NetCDF file, or PVM files only");
+}
+
+/// Puts the files in the order of the numbers in their names, which become the times.
+void takeTimesFromNames(std::vector<std::filesystem::path>& files, ImportOptions& options) {
+    const std::vector<double> numbers = numbersInNames(files);
+    std::vector<std::size_t> order(files.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return numbers[i]; });
+    std::vector<std::filesystem::path> sorted;
+    options.times.clear();
+    for (const std::size_t i : order) {
+        sorted.push_back(files[i]);
+        options.times.push_back(numbers[i]);
     }
-    return openNetcdf(command.inputs.front(), command.options);
+    files = std::move(sorted);
+}
+
+std::unique_ptr<FrameSource> openSource(const ImportCommand& command) {
+    requireFiles(command.inputs);
+    std::vector<std::filesystem::path> files = command.inputs;
+    ImportOptions options = command.options;
+    if (command.timeFromName) {
+        takeTimesFromNames(files, options);
+    } else if (options.times.empty() && !std::ranges::is_sorted(files, naturalLess)) {
+        // The shell gives "t10" before "t2". Times on the command line belong to the order given there.
+        std::ranges::sort(files, naturalLess);
+        printNote("the files were put in the order of their names: " + files.front().string() + " to " +
+                  files.back().string());
+    }
+    const ImportFormat& format = findImportFormat(files.front());
+    if (!options.height.empty() && !format.takesHeights)
+        throw Error(std::string(format.name) + " files have no heights", "--height " + options.height,
+                    "leave it out");
+    return format.open(files, options);
 }
 
 }  // namespace

@@ -78,12 +78,14 @@ void close(std::ofstream& stream, const std::filesystem::path& path) {
 }  // namespace
 
 void writeRaw(const SeriesFile& series, const std::filesystem::path& out, const ImportProgress& progress) {
+    const SeriesDescription& description = series.description();
+    if (description.lattice.heights)
+        throw Error("the series has heights of its own for every sample, which RAW cannot hold",
+                    series.path().string(), "import it again without --height");
     static_assert(std::endian::native == std::endian::little);
     std::filesystem::path samplesPath = out;
     samplesPath.replace_extension(".raw");
     AtomicFile descriptionFile(out), samplesFile(samplesPath);
-    const SeriesDescription& description = series.description();
-
     const glm::ivec3 dims = description.lattice.dims();
     std::vector<float> samples(static_cast<std::size_t>(dims.x) * dims.y * dims.z);
     std::ofstream payload(samplesFile.temporaryPath(), std::ios::binary);

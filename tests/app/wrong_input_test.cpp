@@ -113,7 +113,7 @@ TEST_F(CommandLine, UnknownSceneKeyNamesTheClosestKnownOne) {
 }
 
 TEST_F(CommandLine, HelpOfEveryVerbIsData) {
-    for (const char* verb : {"", "import", "info", "render", "mesh", "validate", "plan", "bench"}) {
+    for (const char* verb : {"", "import", "export", "info", "render", "mesh", "validate", "plan", "bench"}) {
         std::vector<std::string> arguments = {"--help"};
         if (*verb) arguments.insert(arguments.begin(), verb);
         const RunResult result = run(arguments);
