@@ -84,9 +84,7 @@ void BlendedBrick::load(const LevelFields& fields, LevelBrick node) {
 void BlendedBrick::loadCoarser(const LevelFields& fields) {
     float largest = 0;
     for (int place = 0; place < kBrickCorners; ++place) {
-        const glm::ivec3 corner(place / (kCornersPerSide * kCornersPerSide),
-                                place / kCornersPerSide % kCornersPerSide, place % kCornersPerSide);
-        weights_[place] = blendWeight(sizeRatio(0, corner));
+        weights_[place] = blendWeight(sizeRatio(place));
         largest = std::max(largest, weights_[place]);
     }
     if (largest == 0) {
@@ -170,6 +168,19 @@ glm::vec3 BlendedBrick::levelGradient(int levelsUp, glm::ivec3 local) const {
     const IndexSpace& space = fields_->space.levels[level];
     const glm::ivec3 last = fields_->space.cellsAt(level);
     const glm::ivec3 first = node_.brick * (kBrickSize >> levelsUp);
+    if (levelsUp == 0 && own_.complete) {
+        // All neighbours are there.
+        const float* value = &own_.values[BrickField::at(local.x, local.y, local.z)];
+        constexpr std::array<int, 3> kStride = {BrickField::kStrideX, BrickField::kStrideY, 1};
+        glm::vec3 result;
+        for (int k = 0; k < 3; ++k) {
+            const AxisTable& axis = space.axes[k];
+            const int i = first[k] + local[k];
+            result[k] = axis.previous[i] * (*value - value[-kStride[k]]) +
+                        axis.next[i] * (value[kStride[k]] - *value);
+        }
+        return result;
+    }
     const glm::ivec3 at = glm::min(local, last - first);
     const float* value = nullptr;
     std::array<int, 3> stride;

@@ -60,6 +60,11 @@ class BlendedBrick {
     /// NaN where the sample is missing. By cornerPlace.
     const std::array<float, kBrickCorners>& values() const { return values_; }
     bool hasMissing() const { return hasMissing_; }
+    /// Allowed size over the size of the brick's cells, at a vertex given by its place.
+    float sizeRatio(int place) const {
+        return sizeRatio(0, {place / (kCornersPerSide * kCornersPerSide),
+                             place / kCornersPerSide % kCornersPerSide, place % kCornersPerSide});
+    }
     /// Position and gradient at a vertex whose value is valid. Computed once.
     const Channels& channels(glm::ivec3 corner);
 

@@ -14,6 +14,11 @@ namespace isoglass {
 namespace {
 
 constexpr std::size_t kBricksPerTask = 32;
+/// See CellOptions; a mesh for a view may be one of many in time.
+constexpr float kGate = 0.03f;
+/// What a smooth surface makes in that many bricks, about 8^2 vertices and twice as many triangles a brick;
+/// more only costs a reallocation.
+constexpr std::size_t kVerticesPerTask = kBricksPerTask * kBrickSize * kBrickSize;
 
 /// Walks the octree from the top.
 class Selector {
@@ -96,13 +101,16 @@ std::vector<LevelBrick> selectBricks(const LevelSpace& space, const SizeField& s
     return Selector(space, sizes, levels, iso).run();
 }
 
-std::vector<MeshPart> meshBricks(const LevelFields& fields, const std::vector<LevelBrick>& bricks, float iso,
-                                 int threads) {
+std::vector<MeshPart> meshBricks(const LevelFields& fields, const std::vector<LevelBrick>& bricks,
+                                 const CellOptions& options, int threads) {
     std::vector<MeshPart> parts((bricks.size() + kBricksPerTask - 1) / kBricksPerTask);
     parallelFor(bricks.size(), kBricksPerTask, threads, [&](std::size_t begin, std::size_t end) {
-        const auto mesher =
-            std::make_unique<BrickMesher>(fields, fields.sign * iso, fields.space.levels[0].mirrored);
-        for (std::size_t i = begin; i < end; ++i) mesher->mesh(bricks[i], parts[begin / kBricksPerTask]);
+        const auto mesher = std::make_unique<BrickMesher>(fields, options);
+        MeshPart& part = parts[begin / kBricksPerTask];
+        part.positions.reserve(kVerticesPerTask);
+        part.normals.reserve(kVerticesPerTask);
+        part.triangles.reserve(6 * kVerticesPerTask);
+        for (std::size_t i = begin; i < end; ++i) mesher->mesh(bricks[i], part);
     });
     return parts;
 }
@@ -123,7 +131,8 @@ Extraction extractForView(const Lattice& lattice, const TimedField& field, const
     const std::vector<LevelBrick> bricks = selectBricks(space, sizes, fields.fields, options.iso);
     result.stats.touchedBricks = bricks.size();
 
-    std::vector<MeshPart> parts = meshBricks(fields, bricks, options.iso, options.threads);
+    std::vector<MeshPart> parts =
+        meshBricks(fields, bricks, {.iso = options.iso, .gate = kGate}, options.threads);
     for (const MeshPart& part : parts) result.stats.lostCells += part.lostCells;
     result.mesh = joinParts(parts, result.mesh.origin, options.threads);
     return result;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "surface/blended_brick.h"
+#include "surface/cell_form.h"
 #include "surface/extract.h"
 #include "surface/level_space.h"
 #include "surface/mesh_part.h"
@@ -24,9 +25,9 @@ std::vector<const MissingDistance*> missingIn(const TimedField& field);
 std::vector<LevelBrick> selectBricks(const LevelSpace& space, const SizeField& sizes,
                                      const std::vector<TimedField>& levels, float iso);
 
-/// Meshes bricks, some of them to a part, in their order. `iso` as in ExtractOptions.
-std::vector<MeshPart> meshBricks(const LevelFields& fields, const std::vector<LevelBrick>& bricks, float iso,
-                                 int threads);
+/// Meshes bricks, some of them to a part, in their order.
+std::vector<MeshPart> meshBricks(const LevelFields& fields, const std::vector<LevelBrick>& bricks,
+                                 const CellOptions& options, int threads);
 
 /// `extractSurface` with the detail that `options.view` asks for, which must want some.
 Extraction extractForView(const Lattice& lattice, const TimedField& field, const ExtractOptions& options);

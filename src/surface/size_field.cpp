@@ -20,17 +20,21 @@ constexpr float kMargin = 1.0f / 1024;
 /// corners: its gradient is then at most sqrt(3) times this per 8 cells, as much as sizes may grow.
 constexpr float kGrowthPerBrick = static_cast<float>(kLargestGrowth / 3);
 
-/// Size per world length that the view asks for, as far as it is allowed.
-double sizePerLength(const LevelSpace& space, const View& view) {
-    double longest = 0;
+/// The largest cell in the world.
+struct CellExtent {
+    double edge = 0;
     double diagonal = 0;
+};
+
+CellExtent largestCell(const LevelSpace& space, const View& view) {
+    CellExtent extent;
     for (int k = 0; k < 3; ++k) {
         const double step = space.largestStep[k] * std::abs(view.worldPerUnit[k]);
-        longest = std::max(longest, step);
-        diagonal += step * step;
+        extent.edge = std::max(extent.edge, step);
+        extent.diagonal += step * step;
     }
-    const double asked = view.cellPixels / (view.pixelsPerUnit * longest);
-    return std::min(asked, kLargestGrowth / (kBrickSize * std::sqrt(diagonal)));
+    extent.diagonal = std::sqrt(extent.diagonal);
+    return extent;
 }
 
 }  // namespace
@@ -38,7 +42,12 @@ double sizePerLength(const LevelSpace& space, const View& view) {
 SizeField::SizeField(const LevelSpace& space, const View& view, std::vector<const MissingDistance*> missing)
     : missing_(std::move(missing)) {
     std::erase_if(missing_, [](const MissingDistance* distance) { return distance->empty(); });
-    const double factor = sizePerLength(space, view);
+    const CellExtent cell = largestCell(space, view);
+    // Size per world length: what the view asks for, as far as it is allowed.
+    const double factor = std::min(view.cellPixels / (view.pixelsPerUnit * cell.edge),
+                                   kLargestGrowth / (kBrickSize * cell.diagonal));
+    growthPerBrick_ =
+        static_cast<float>(missing_.empty() ? factor * kBrickSize * cell.diagonal : kLargestGrowth);
     for (int k = 0; k < 3; ++k) {
         const double eye = view.eye[k] - space.levels[0].origin[k];
         for (const double coordinate : space.coordinate[k]) {

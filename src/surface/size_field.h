@@ -39,6 +39,9 @@ class SizeField {
     /// A bound for the sizes in a closed brick.
     float largestByDistance(LevelBrick node) const;
 
+    /// By how many cells of a brick's level sizes grow over its diagonal at most; below 1.
+    float growthPerBrick() const { return growthPerBrick_; }
+
     /// Whether the surface may be made of cells of the node's level there: sizes are at least that of its
     /// cells, with a margin for rounding.
     bool isCoarseEnough(LevelBrick node) const;
@@ -54,6 +57,7 @@ class SizeField {
         return {begin, begin + (kBrickSize << node.level)};
     }
 
+    float growthPerBrick_ = 0;
     /// Squared part of each axis in the distance, in units of size, by level-0 index; falls, then rises.
     std::array<std::vector<float>, 3> squares_;
     std::array<int, 3> nearest_;                   ///< index of the smallest one

@@ -24,6 +24,8 @@ struct LevelCase {
     std::array<std::vector<float>, 2> samples;  ///< dense, x fastest
     TimedField field;
     ExtractOptions options;
+    CellForm form = CellForm::sliding;
+    float gate = 0;
     std::string name;
 };
 
@@ -100,19 +102,48 @@ inline LevelCase makeLevelCase(std::uint32_t seed, Kind kind, glm::ivec3 dims) {
     constexpr std::array<float, 4> kFractions = {0, 1, 0.3125f, 0.71f};
     c.field.fraction = kFractions[dice.below(4)];
     View view;
-    const double reach = std::max({cells.x, cells.y, cells.z});
-    for (int k = 0; k < 3; ++k) view.eye[k] = 0.5 * cells[k] + dice.between(-2.5, 2.5) * reach;
-    if (seed % 3 == 0) view.eye = glm::round(view.eye);
+    // Cells per size, from the least that is allowed to the most of a picture; the eye so far away that
+    // levels 0 to 3 are seen.
+    const double cellsPerSize = std::exp(dice.between(std::log(10.0), std::log(200.0)));
     view.pixelsPerUnit = 1000;
-    // From the least that sizes allow to a quarter of their growth.
-    view.cellPixels = view.pixelsPerUnit / dice.between(10, 50);
+    view.cellPixels = view.pixelsPerUnit / cellsPerSize;
+    for (int k = 0; k < 3; ++k) view.eye[k] = 0.5 * cells[k] + dice.between(-5, 5) * cellsPerSize;
+    if (seed % 3 == 0) view.eye = glm::round(view.eye);
     c.options.view = view;
     c.options.iso = isoOf(kind, dice);
     c.options.insideIsBelow = dice.below(4) == 0;
+    c.form = dice.below(4) == 0 ? CellForm::tetrahedral : CellForm::sliding;
+    c.gate = dice.below(2) == 0 ? 0.05f : 0;
     c.options.threads = 1;
     c.name = "seed " + std::to_string(seed) + ", kind " + std::to_string(static_cast<int>(kind)) + ", " +
              std::to_string(dims.x) + "x" + std::to_string(dims.y) + "x" + std::to_string(dims.z);
     return c;
+}
+
+/// The steps of an extraction up to the choice of bricks.
+struct Selected {
+    LevelSpace space;
+    SizeField sizes;
+    LevelFields fields;
+    std::vector<LevelBrick> bricks;
+
+    explicit Selected(const LevelCase& c)
+        : space(c.lattice),
+          sizes(space, *c.options.view, missingIn(c.field)),
+          fields{space, sizes, fieldsOfLevels(space, c.field), c.options.insideIsBelow ? -1.0f : 1.0f},
+          bricks(selectBricks(space, sizes, fields.fields, c.options.iso)) {}
+    Selected(const Selected&) = delete;
+
+    std::vector<MeshPart> mesh(const LevelCase& c) const {
+        return meshBricks(fields, bricks, {c.options.iso, c.form, c.gate}, 1);
+    }
+};
+
+/// As extractSurface, with the case's own form of cells.
+inline SurfaceMesh meshOf(const LevelCase& c) {
+    const Selected selected(c);
+    std::vector<MeshPart> parts = selected.mesh(c);
+    return joinParts(parts, selected.space.levels[0].origin, 1);
 }
 
 }  // namespace isoglass::test
