@@ -1,10 +1,11 @@
 #version 450 core
-#include "lib/shading.glsl"
+#include "lib/emission.glsl"
+#include "lib/emission_limit.glsl"
 
-layout(location = 0) out vec4 transmittance;
-layout(location = 1) out vec4 emission;
+layout(location = 0) out vec4 composed;
 
+// Blending adds the light and dims the transmittance in alpha by the opacity.
 void main() {
-    transmittance = vec4(1.0 - colorOpacity.a);
-    emission = vec4(colorOpacity.a * shadedColor(), 0.0);
+    composed = emissionAndOpacity();
+    if (!emits()) composed.rgb = vec3(0.0);
 }

@@ -5,13 +5,13 @@
 #include "app/stop_signal.h"
 #include "app/view/controls.h"
 #include "base/error.h"
+#include "scene/transparency.h"
 
 #include <CLI/CLI.hpp>
 
 #include <exception>
 #include <functional>
 #include <iostream>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -109,14 +109,12 @@ void addRender(CLI::App& app, const CommonOptions& common, std::function<void()>
     verb->add_option_function<std::string>(
         "--size", [command](const std::string& text) { command->size = imageSize(text); },
         "Size of the image, WxH pixels");
-    static const std::map<std::string, TransparencyMethod> kMethods = {
-        {"auto", TransparencyMethod::automatic},
-        {"3-pass", TransparencyMethod::threePass},
-        {"4-pass", TransparencyMethod::fourPass}};
+    const auto names = transparencyMethodNames();
     verb->add_option_function<std::string>(
-            "--method", [command](const std::string& name) { command->method = kMethods.at(name); },
-            "Composition: auto, 3-pass or 4-pass")
-        ->check(CLI::IsMember({"auto", "3-pass", "4-pass"}));
+            "--method",
+            [command](const std::string& name) { command->method = transparencyMethodNamed(name); },
+            "Composition: auto, 2-pass, 3-pass, 4-pass, peel or exact")
+        ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())));
     verb->callback([command, &common, &run] { run = [command, &common] { runRender(*command, common); }; });
 }
 
@@ -164,12 +162,13 @@ void addValidate(CLI::App& app, std::function<void()>& run, int& status) {
     });
 }
 
-void addPlan(CLI::App& app, std::function<void()>& run) {
+void addPlan(CLI::App& app, const CommonOptions& common, std::function<void()>& run) {
     auto command = std::make_shared<PlanCommand>();
-    CLI::App* verb = app.add_subcommand("plan", "Say which passes a frame of the scene takes, and why");
+    CLI::App* verb =
+        app.add_subcommand("plan", "Say what the first frame of the scene takes, how long, and why");
     verb->add_option("SCENE", command->scene, "Scene file (.json)")->required();
     verb->add_flag("--json", command->json, "Print JSON");
-    verb->callback([command, &run] { run = [command] { runPlan(*command); }; });
+    verb->callback([command, &common, &run] { run = [command, &common] { runPlan(*command, common); }; });
 }
 
 void addBench(CLI::App& app, const CommonOptions& common, std::function<void()>& run) {
@@ -215,7 +214,7 @@ int runCommandLine(int argc, char** argv) {
     addView(app, common, run);
     addMesh(app, common, run);
     addValidate(app, run, status);
-    addPlan(app, run);
+    addPlan(app, common, run);
     addBench(app, common, run);
     try {
         app.parse(argc, argv);

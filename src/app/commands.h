@@ -85,7 +85,7 @@ struct PlanCommand {
     std::filesystem::path scene;
     bool json = false;
 };
-void runPlan(const PlanCommand& command);
+void runPlan(const PlanCommand& command, const CommonOptions& common);
 
 struct BenchCommand {
     std::vector<std::string> names;  ///< parts of names; empty runs all

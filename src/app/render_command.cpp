@@ -41,7 +41,11 @@ void applyOverrides(const RenderCommand& command, Scene& scene) {
         }
         scene.image.size = size;
     }
-    if (command.method) scene.transparency = *command.method;
+    if (command.method) scene.transparency.method = *command.method;
+    if (scene.transparency.reproducible && scene.transparency.method == TransparencyMethod::twoPass) {
+        throw Error("the scene is to be reproducible, and 2-pass depends on the order of the surfaces",
+                    "--method", "choose another method");
+    }
 }
 
 /// Says once for each surface or volume what its pictures lack.
@@ -59,7 +63,8 @@ class Notes {
         }
         for (const ExtractedSurface& surface : frame.meshes.surfaces) {
             const std::string volume = "/volumes/" + std::to_string(surface.volume);
-            if (surface.mesh->empty()) {
+            const auto& work = frame.meshes.work[surface.volume];
+            if (surface.mesh->empty() && isNeeded(work, WorkKind::extraction, surface.surface)) {
                 sayOnce(volume + "/surfaces/" + std::to_string(surface.surface) + ": the surface is empty",
                         rangeText(surface.stats.range) + when);
             }

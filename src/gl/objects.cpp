@@ -52,15 +52,28 @@ void Buffer::write(std::size_t offset, std::span<const std::byte> contents) cons
                          contents.data());
 }
 
-Texture::Texture(GLenum format, glm::ivec2 size)
-    : Handle(make([](GLuint* name) { glCreateTextures(GL_TEXTURE_2D, 1, name); })), size_(size) {
-    glTextureStorage2D(name(), 1, format, size.x, size.y);
+void Buffer::read(std::size_t offset, std::span<std::byte> contents) const {
+    glGetNamedBufferSubData(name(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(contents.size()),
+                            contents.data());
+}
+
+Texture::Texture(GLenum format, glm::ivec2 size, int layers)
+    : Handle(make([layers](GLuint* name) {
+          glCreateTextures(layers > 1 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, 1, name);
+      })),
+      size_(size),
+      layers_(layers) {
+    if (layers > 1) {
+        glTextureStorage3D(name(), 1, format, size.x, size.y, layers);
+    } else {
+        glTextureStorage2D(name(), 1, format, size.x, size.y);
+    }
     glTextureParameteri(name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTextureParameteri(name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
 Framebuffer::Framebuffer(std::span<const Texture* const> colors, const Texture* depth,
-                         const std::string& label)
+                         const std::string& label, glm::ivec2 size)
     : Handle(make([](GLuint* name) { glCreateFramebuffers(1, name); })) {
     std::vector<GLenum> outputs;
     for (const Texture* color : colors) {
@@ -68,6 +81,8 @@ Framebuffer::Framebuffer(std::span<const Texture* const> colors, const Texture* 
         glNamedFramebufferTexture(name(), outputs.back(), color->name(), 0);
     }
     glNamedFramebufferDrawBuffers(name(), static_cast<GLsizei>(outputs.size()), outputs.data());
+    glNamedFramebufferParameteri(name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, size.x);
+    glNamedFramebufferParameteri(name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, size.y);
     if (depth != nullptr) glNamedFramebufferTexture(name(), GL_DEPTH_ATTACHMENT, depth->name(), 0);
     const GLenum status = glCheckNamedFramebufferStatus(name(), GL_DRAW_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE) {

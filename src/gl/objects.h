@@ -50,6 +50,8 @@ class Buffer : public Handle<destroyBuffer> {
     static Buffer updatable(std::size_t bytes);
 
     void write(std::size_t offset, std::span<const std::byte> contents) const;
+    /// Waits for what the GPU still writes.
+    void read(std::size_t offset, std::span<std::byte> contents) const;
     std::size_t bytes() const { return bytes_; }
 
   private:
@@ -58,23 +60,27 @@ class Buffer : public Handle<destroyBuffer> {
 };
 
 /// A 2D texture without mipmaps, read without filtering. `format` is a sized internal format, e.g.
-/// GL_RGBA32F.
+/// GL_RGBA32F. With more than one layer it is an array texture.
 class Texture : public Handle<destroyTexture> {
   public:
-    Texture(GLenum format, glm::ivec2 size);
+    Texture(GLenum format, glm::ivec2 size, int layers = 1);
 
     glm::ivec2 size() const { return size_; }
+    int layers() const { return layers_; }
 
   private:
     glm::ivec2 size_;
+    int layers_;
 };
 
 /// Textures to draw into: fragment output i goes to colors[i].
 class Framebuffer : public Handle<destroyFramebuffer> {
   public:
-    /// `depth` may be null. The textures must outlive the framebuffer. Throws Error, naming `label`,
-    /// where the driver cannot draw into this combination.
-    Framebuffer(std::span<const Texture* const> colors, const Texture* depth, const std::string& label);
+    /// `depth` may be null. The textures must outlive the framebuffer; without any, `size` is what shaders
+    /// with other outputs draw over. Throws Error, naming `label`, where the driver cannot draw into this
+    /// combination.
+    Framebuffer(std::span<const Texture* const> colors, const Texture* depth, const std::string& label,
+                glm::ivec2 size = {1, 1});
 };
 
 /// How vertices are fetched. The buffers must outlive it.

@@ -13,8 +13,10 @@ enum class Culling { none, frontFaces, backFaces };
 /// How a fragment output joins what the target holds.
 enum class Blend {
     replace,
-    add,       ///< target + output
-    multiply,  ///< target * output
+    add,         ///< target + output
+    emitAndDim,  ///< RGB: target + output; alpha: target * (1 - output's alpha). Commutes.
+    over,        ///< RGB: output + target * (1 - output's alpha); alpha as in emitAndDim
+    under,       ///< RGB: target + target's alpha * output; alpha as in emitAndDim
 };
 
 /// The fixed-function state that a pass declares.

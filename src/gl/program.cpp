@@ -68,15 +68,36 @@ GLint property(GLuint program, GLenum interface, GLuint index, GLenum what) {
     return value;
 }
 
+bool isSampler(GLenum type) {
+    return type == GL_SAMPLER_2D || type == GL_UNSIGNED_INT_SAMPLER_2D ||
+           type == GL_UNSIGNED_INT_SAMPLER_2D_ARRAY;
+}
+
+bool isImage(GLenum type) {
+    return type == GL_UNSIGNED_INT_IMAGE_2D || type == GL_UNSIGNED_INT_IMAGE_2D_ARRAY;
+}
+
+/// The defines go behind the line of the version, which must come first.
+ShaderSource withDefines(ShaderSource source, const std::vector<std::string>& defines) {
+    if (defines.empty()) return source;
+    const std::size_t versionEnd = source.text.find('\n') + 1;
+    std::string lines;
+    for (const std::string& define : defines) lines += "#define " + define + "\n";
+    source.text.insert(versionEnd, lines + "#line 2 0\n");
+    return source;
+}
+
 }  // namespace
 
 void destroyProgram(GLuint name) {
     glDeleteProgram(name);
 }
 
-Program::Program(std::string_view vertexFile, std::string_view fragmentFile)
+Program::Program(std::string_view vertexFile, std::string_view fragmentFile,
+                 const std::vector<std::string>& defines)
     : Program(std::string(vertexFile) + " with " + std::string(fragmentFile),
-              resolveIncludes(vertexFile, embeddedShader), resolveIncludes(fragmentFile, embeddedShader)) {}
+              resolveIncludes(vertexFile, embeddedShader),
+              withDefines(resolveIncludes(fragmentFile, embeddedShader), defines)) {}
 
 Program::Program(const std::string& label, const ShaderSource& vertex, const ShaderSource& fragment)
     : Handle(glCreateProgram()) {
@@ -93,9 +114,26 @@ Program::Program(const std::string& label, const ShaderSource& vertex, const Sha
 }
 
 std::vector<int> Program::samplerUnits() const {
+    return unitsOf(isSampler);
+}
+
+std::vector<int> Program::imageUnits() const {
+    return unitsOf(isImage);
+}
+
+std::vector<int> Program::storageBindings() const {
+    std::vector<int> bindings;
+    forEachResource(name(), GL_SHADER_STORAGE_BLOCK, [&](GLuint index) {
+        bindings.push_back(property(name(), GL_SHADER_STORAGE_BLOCK, index, GL_BUFFER_BINDING));
+    });
+    std::sort(bindings.begin(), bindings.end());
+    return bindings;
+}
+
+std::vector<int> Program::unitsOf(bool (*isWanted)(GLenum type)) const {
     std::vector<int> units;
     forEachResource(name(), GL_UNIFORM, [&](GLuint index) {
-        if (property(name(), GL_UNIFORM, index, GL_TYPE) != GL_SAMPLER_2D) return;
+        if (!isWanted(static_cast<GLenum>(property(name(), GL_UNIFORM, index, GL_TYPE)))) return;
         GLint unit = 0;
         glGetUniformiv(name(), property(name(), GL_UNIFORM, index, GL_LOCATION), &unit);
         units.push_back(unit);

@@ -1,64 +1,113 @@
 #include "plan/frame_plan.h"
 
+#include "scene/transparency.h"
+
 #include <algorithm>
+#include <array>
+#include <tuple>
+#include <utility>
 
 namespace isoglass {
 namespace {
 
-constexpr const char* kNothingSemiTransparent = "no semi-transparent surface is visible";
+using enum PassKind;
+using Method = TransparencyMethod;
 
-FramePlan planOpaqueOnly(FramePlan plan) {
-    plan.passes.push_back({PassKind::resolve, "applies exposure and the sRGB curve"});
-    for (const PassKind kind : {PassKind::attenuation, PassKind::emission, PassKind::attenuationAndEmission,
-                                PassKind::backFaceDepth}) {
-        plan.leftOut.push_back({kind, kNothingSemiTransparent});
+constexpr std::array<std::string_view, kPassKindCount> kNames{
+    "opaque",       "back-face depth", "blending",    "attenuation and emission",
+    "integer sums", "peeled layer",    "layer blend", "fragment lists",
+    "resolve",      "accumulation",    "presentation"};
+
+std::pair<Method, std::string> chooseMethod(const PlanInput& input) {
+    if (input.method != Method::automatic) return {input.method, "the scene asks for it"};
+    if (input.exactWanted) return {Method::exact, "the wanted quality asks for the exact order"};
+    if (input.overlapImpossible && input.semiTransparentSurfaces > 0) {
+        return {Method::twoPass, "the one semi-transparent surface is flat: nothing overlaps in any view"};
     }
-    return plan;
+    return {Method::fourPass, "semi-transparent surfaces may overlap, and their order in depth shows"};
 }
 
-FramePlan planThreePass(FramePlan plan, bool separatePasses) {
-    plan.leftOut.push_back({PassKind::backFaceDepth, "the 3-pass method adds the emission of all surfaces"});
-    if (separatePasses) {
-        plan.passes.push_back({PassKind::attenuation, "semi-transparent surfaces dim what is behind them"});
-        plan.passes.push_back({PassKind::emission, "semi-transparent surfaces add their own light"});
-        plan.leftOut.push_back({PassKind::attenuationAndEmission, "separate passes were asked for"});
+void add(FramePlan& plan, PassKind kind, std::string reason, int layer = 0) {
+    plan.passes.push_back({kind, std::move(reason), layer});
+}
+
+void planSums(FramePlan& plan, bool reproducible) {
+    if (reproducible) {
+        add(plan, integerSums, "integers add up to the same bits in any order");
     } else {
-        plan.passes.push_back({PassKind::attenuationAndEmission,
-                               "the same fragments attenuate and emit, so one walk over them serves both"});
-        for (const PassKind kind : {PassKind::attenuation, PassKind::emission}) {
-            plan.leftOut.push_back({kind, "part of the pass that attenuates and emits"});
-        }
+        add(plan, attenuationAndEmission,
+            "semi-transparent surfaces dim what is behind them and add their own light, in one walk");
     }
-    return plan;
 }
 
-FramePlan planFourPass(FramePlan plan) {
-    plan.passes.push_back({PassKind::attenuation, "semi-transparent surfaces dim what is behind them"});
-    plan.passes.push_back({PassKind::backFaceDepth, "the 4-pass method shows no emission beyond it"});
-    plan.passes.push_back({PassKind::emission, "surfaces up to the nearest back face add their own light"});
-    plan.leftOut.push_back(
-        {PassKind::attenuationAndEmission, "in the 4-pass method fewer fragments emit than attenuate"});
-    return plan;
+void planComposition(FramePlan& plan, const PlanInput& input) {
+    switch (plan.method) {
+        case Method::twoPass:
+            return add(plan, blending, "blends semi-transparent surfaces in the order of the draws");
+        case Method::threePass:
+            return planSums(plan, input.reproducible);
+        case Method::automatic:
+        case Method::fourPass:
+            add(plan, backFaceDepth, "the 4-pass method shows no emission beyond it");
+            return planSums(plan, input.reproducible);
+        case Method::exact:
+            return add(plan, fragmentLists, "keeps every fragment, to be sorted in each pixel");
+        case Method::peel:
+            break;
+    }
+    if (input.reproducible) {
+        return add(plan, fragmentLists,
+                   "sorted lists give the nearest layers in an order that no draw order changes");
+    }
+    for (int layer = 0; layer < input.layers; ++layer) {
+        const std::string number = std::to_string(layer + 1);
+        add(plan, peeledLayer, "finds layer " + number + " of " + std::to_string(input.layers), layer);
+        add(plan, layerBlend, "puts layer " + number + " behind those before it", layer);
+    }
+}
+
+/// One sample a pixel is the center. Four are drawn at twice the size, so the geometry is walked once;
+/// more than that are averaged over pictures, 4 samples each where they come in fours.
+void planSamples(FramePlan& plan, const PlanInput& input) {
+    plan.supersample = input.samples % 4 == 0 ? 2 : 1;
+    plan.subframes = input.samples / (plan.supersample * plan.supersample);
+    if (plan.subframes == 1 && !input.keepLinear) {
+        return add(plan, resolve, "joins what is behind and in front, applies exposure and the sRGB curve");
+    }
+    add(plan, accumulation,
+        plan.subframes > 1
+            ? std::to_string(plan.subframes) + " pictures with shifted samples are averaged in linear light"
+            : "the linear image is asked for");
+    add(plan, presentation, "applies exposure and the sRGB curve to the linear image");
+}
+
+std::string whyNot(PassKind kind, const FramePlan& plan, const PlanInput& input) {
+    if (input.unchanged) return "nothing has changed since the last frame";
+    if (kind == opaque) return "no opaque surface is visible, and the background needs no drawing";
+    if (kind == resolve) return "the linear image comes first";
+    if (kind == accumulation || kind == presentation) {
+        return "one picture is enough, and nobody asks for the linear image";
+    }
+    if (input.semiTransparentSurfaces == 0) return "no semi-transparent surface is visible";
+    const bool sums = plan.method == Method::threePass || plan.method == Method::fourPass;
+    if (sums && kind == integerSums) return "float sums are enough unless the frame must be reproducible";
+    if (sums && kind == attenuationAndEmission) return "float sums depend on the order in their last bits";
+    if (plan.method == Method::peel && kind == peeledLayer) return "the layers come from the fragment lists";
+    if (plan.method == Method::threePass && kind == backFaceDepth) {
+        return "the 3-pass method adds the emission of all surfaces";
+    }
+    return "the method " + std::string(transparencyMethodName(plan.method)) + " does not need it";
 }
 
 }  // namespace
 
 std::string_view passName(PassKind kind) {
-    switch (kind) {
-        case PassKind::opaque:
-            return "opaque";
-        case PassKind::attenuation:
-            return "attenuation";
-        case PassKind::emission:
-            return "emission";
-        case PassKind::attenuationAndEmission:
-            return "attenuation and emission";
-        case PassKind::backFaceDepth:
-            return "back-face depth";
-        case PassKind::resolve:
-            return "resolve";
-    }
-    return {};
+    return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::string passLabel(const PlannedPass& pass) {
+    const bool numbered = pass.kind == peeledLayer || pass.kind == layerBlend;
+    return std::string(passName(pass.kind)) + (numbered ? " " + std::to_string(pass.layer + 1) : "");
 }
 
 bool FramePlan::runs(PassKind kind) const {
@@ -66,14 +115,18 @@ bool FramePlan::runs(PassKind kind) const {
 }
 
 FramePlan planFrame(const PlanInput& input) {
-    const bool threePass = input.method == TransparencyMethod::threePass;
-    FramePlan plan{threePass ? TransparencyMethod::threePass : TransparencyMethod::fourPass, {}, {}};
-    plan.passes.push_back({PassKind::opaque, input.opaqueSurfaces > 0
-                                                 ? "opaque surfaces are visible"
-                                                 : "gives the background; no opaque surface is visible"});
-    if (input.semiTransparentSurfaces == 0) return planOpaqueOnly(std::move(plan));
-    plan = threePass ? planThreePass(std::move(plan), input.separatePasses) : planFourPass(std::move(plan));
-    plan.passes.push_back({PassKind::resolve, "joins background, transmittance and emission"});
+    FramePlan plan;
+    std::tie(plan.method, plan.methodReason) = chooseMethod(input);
+    plan.reproducible = input.reproducible;
+    if (!input.unchanged) {
+        if (input.opaqueSurfaces > 0) add(plan, opaque, "opaque surfaces are visible");
+        if (input.semiTransparentSurfaces > 0) planComposition(plan, input);
+        planSamples(plan, input);
+    }
+    for (int i = 0; i < kPassKindCount; ++i) {
+        const auto kind = static_cast<PassKind>(i);
+        if (!plan.runs(kind)) plan.leftOut.push_back({kind, whyNot(kind, plan, input)});
+    }
     return plan;
 }
 

@@ -18,6 +18,8 @@ struct CameraView {
     glm::dvec3 up{0, 0, 1};
     double fovDegrees = 30;      ///< vertical, between 0 and 180
     glm::ivec2 size{1280, 720};  ///< of the image in pixels
+
+    friend bool operator==(const CameraView&, const CameraView&) = default;
 };
 
 /// Orthonormal directions of the view in world axes.

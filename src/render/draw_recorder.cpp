@@ -3,12 +3,16 @@
 #include "render/uniforms.h"
 
 #include <glm/ext/matrix_transform.hpp>
+#include <glm/matrix.hpp>
 
 #include <cstring>
+#include <limits>
 #include <span>
 
 namespace isoglass {
 namespace {
+
+constexpr int kNoLayerLimit = std::numeric_limits<int>::max();
 
 std::size_t roundedUp(std::size_t value, std::size_t step) {
     return (value + step - 1) / step * step;
@@ -63,30 +67,55 @@ DrawRecorder::DrawRecorder(gl::StateCache& state)
       frameUniforms_(gl::Buffer::updatable(sizeof(FrameUniforms))) {}
 
 void DrawRecorder::prepare(const FrameDescription& frame, const MeshStore& meshes) {
+    frame_ = frame;
+    meshes_ = &meshes;
+    visible_ = visibleDraws(frame_, meshes);
     opaque_.clear();
     semiTransparent_.clear();
-    const std::vector<const SurfaceDraw*> visible = visibleDraws(frame, meshes);
-    const glm::dmat4 fromEye = clipFromEyeFor(frame, visible, meshes);
-    std::vector<std::byte> bytes(visible.size() * uniformStride_);
     std::size_t offset = 0;
-    for (const SurfaceDraw* draw : visible) {
-        const GpuMesh& mesh = meshes.get(draw->mesh);
-        const MeshMatrices matrices =
-            meshMatrices(fromEye, frame.camera.eye, draw->worldFromSeries, mesh.origin);
-        const DrawUniforms uniforms = drawUniforms(matrices, *draw);
-        std::memcpy(bytes.data() + offset, &uniforms, sizeof uniforms);
+    for (const SurfaceDraw* draw : visible_) {
+        const bool mirrored = glm::determinant(glm::dmat3(draw->worldFromSeries)) < 0;
         auto& list = draw->opacity >= 1 ? opaque_ : semiTransparent_;
-        list.push_back({&mesh, offset, matrices.mirrored});
+        list.push_back({&meshes.get(draw->mesh), offset, mirrored});
         offset += uniformStride_;
     }
+}
+
+bool DrawRecorder::overlapImpossible() const {
+    return semiTransparent_.size() == 1 && semiTransparent_.front().mesh->flat;
+}
+
+void DrawRecorder::upload(glm::dvec2 shiftPixels, int subframes) {
+    glm::dmat4 fromEye = clipFromEyeFor(frame_, visible_, *meshes_);
+    // What a sample sees moves against the sample; a pixel is 2/size wide in clip space.
+    const glm::dvec2 shift = -2.0 * shiftPixels / glm::dvec2(frame_.camera.size);
+    for (int column = 0; column < 4; ++column) {
+        fromEye[column].x += shift.x * fromEye[column].w;
+        fromEye[column].y += shift.y * fromEye[column].w;
+    }
+    std::vector<std::byte> bytes(visible_.size() * uniformStride_);
+    for (std::size_t i = 0; i < visible_.size(); ++i) {
+        const SurfaceDraw& draw = *visible_[i];
+        const DrawUniforms uniforms = drawUniforms(
+            meshMatrices(fromEye, frame_.camera.eye, draw.worldFromSeries, meshes_->get(draw.mesh).origin),
+            draw);
+        std::memcpy(bytes.data() + i * uniformStride_, &uniforms, sizeof uniforms);
+    }
     uploadUniforms(bytes);
-    const Lighting& lighting = frame.lighting;
-    const FrameUniforms shared{.ambient = lighting.ambient,
-                               .diffuse = lighting.diffuse,
-                               .specular = lighting.specular,
-                               .shininess = lighting.shininess,
-                               .exposure = frame.exposure,
-                               .supersample = frame.supersample};
+    uploadFrameUniforms(subframes);
+}
+
+void DrawRecorder::uploadFrameUniforms(int subframes) {
+    const Lighting& lighting = frame_.lighting;
+    const FrameUniforms shared{
+        .background = {frame_.background * frame_.backgroundOpacity, frame_.backgroundOpacity},
+        .ambient = lighting.ambient,
+        .diffuse = lighting.diffuse,
+        .specular = lighting.specular,
+        .shininess = lighting.shininess,
+        .exposure = frame_.exposure,
+        .accumulationShare = 1 / static_cast<float>(subframes),
+        .layerLimit = frame_.method == TransparencyMethod::peel ? frame_.layers : kNoLayerLimit};
     frameUniforms_.write(0, std::as_bytes(std::span(&shared, 1)));
     glBindBufferBase(GL_UNIFORM_BUFFER, FrameUniforms::kBinding, frameUniforms_.name());
 }

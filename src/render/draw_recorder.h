@@ -18,8 +18,14 @@ class DrawRecorder {
     /// Takes the visible surfaces of `frame`. Meshes are held by reference until the next `prepare`.
     void prepare(const FrameDescription& frame, const MeshStore& meshes);
 
+    /// Uploads what the passes need, with the samples of all pixels moved by `shiftPixels` (x to the right,
+    /// y upwards), for one of `subframes` pictures of which the average is shown.
+    void upload(glm::dvec2 shiftPixels, int subframes);
+
     int opaqueCount() const { return static_cast<int>(opaque_.size()); }
     int semiTransparentCount() const { return static_cast<int>(semiTransparent_.size()); }
+    /// Proved for any view: no ray meets two semi-transparent fragments.
+    bool overlapImpossible() const;
 
     /// Called by the executor at the start of a pass: the state that draws vary from.
     void beginPass(const gl::PipelineState& state);
@@ -35,6 +41,8 @@ class DrawRecorder {
         bool mirrored;
     };
 
+    void uploadFrameUniforms(int subframes);
+
     void draw(const std::vector<PreparedDraw>& draws);
     void uploadUniforms(const std::vector<std::byte>& bytes);
 
@@ -44,6 +52,9 @@ class DrawRecorder {
     std::optional<gl::Buffer> uniforms_;
     gl::Buffer frameUniforms_;
     gl::VertexArray noVertices_;
+    FrameDescription frame_;
+    const MeshStore* meshes_ = nullptr;
+    std::vector<const SurfaceDraw*> visible_;  ///< of frame_
     std::vector<PreparedDraw> opaque_;
     std::vector<PreparedDraw> semiTransparent_;
 };

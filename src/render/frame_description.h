@@ -16,6 +16,8 @@ struct SurfaceDraw {
     glm::dmat4 worldFromSeries{1};  ///< affine; the mesh's positions are series coordinates
     LinearColor color{0.8f};
     float opacity = 1;  ///< 1 and above is opaque; 0 and below, like an empty mesh, is not drawn at all
+
+    friend bool operator==(const SurfaceDraw&, const SurfaceDraw&) = default;
 };
 
 /// Everything that a frame's image depends on.
@@ -30,10 +32,14 @@ struct FrameDescription {
     /// normal and view: light and eye are one. Both sides of a surface are lit alike. `shininess` is above 0.
     Lighting lighting{};
     TransparencyMethod method = TransparencyMethod::automatic;
-    /// Samples a pixel along each axis, 1 or 2, averaged in linear light.
-    int supersample = 1;
-    bool separatePasses = false;  ///< see PlanInput
-    bool wireframe = false;       ///< triangles are drawn as their edges, to look at the mesh
+    int layers = 4;             ///< of the method peel, 1 to kMostLayers
+    bool reproducible = false;  ///< the same bits for any order of draws and triangles; not with 2-pass
+    bool exactWanted = false;   ///< the method automatic takes exact
+    int samples = 1;            ///< a pixel, 1 to kMostSamples, averaged in linear light
+    bool wireframe = false;     ///< triangles are drawn as their edges, to look at the mesh
+    bool keepLinear = true;     ///< Renderer::readLinear works after the frame; costs up to one pass
+
+    friend bool operator==(const FrameDescription&, const FrameDescription&) = default;
 };
 
 }  // namespace isoglass

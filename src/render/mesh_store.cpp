@@ -23,6 +23,10 @@ Bounds boundsOf(const std::vector<glm::vec3>& positions) {
     return {low, high};
 }
 
+bool isFlat(const Bounds& bounds) {
+    return bounds.low.x == bounds.high.x || bounds.low.y == bounds.high.y || bounds.low.z == bounds.high.z;
+}
+
 template <typename T>
 gl::Buffer uploaded(const std::vector<T>& values) {
     return gl::Buffer::immutable(std::as_bytes(std::span(values)));
@@ -41,13 +45,15 @@ MeshId MeshStore::upload(const SurfaceMesh& mesh) {
             "a surface of " + std::to_string(mesh.triangleCount()) + " triangles is too large to draw",
             "upload of a mesh", "use a coarser level");
     }
+    const Bounds bounds = boundsOf(mesh.positions);
     GpuMesh gpu{uploaded(mesh.positions),
                 uploaded(mesh.normals),
                 uploaded(mesh.triangles),
                 gl::VertexArray(),
                 static_cast<std::int32_t>(mesh.triangles.size()),
                 mesh.origin,
-                boundsOf(mesh.positions)};
+                bounds,
+                isFlat(bounds)};
     gpu.vertexArray.setVec3(0, gpu.positions);
     gpu.vertexArray.setVec3(1, gpu.normals);
     gpu.vertexArray.setIndices(gpu.triangles);

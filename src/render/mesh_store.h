@@ -23,6 +23,9 @@ struct GpuMesh {
     std::int32_t indexCount;
     glm::dvec3 origin;  ///< of the positions, in series coordinates
     Bounds bounds;      ///< relative to `origin`; of no meaning where indexCount is 0
+    /// The surface lies in a plane along two axes of the series: no ray out of that plane meets it twice,
+    /// because an iso-surface does not run over itself.
+    bool flat;
 };
 
 /// The meshes of the render thread. All members belong to that thread.

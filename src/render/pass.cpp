@@ -3,176 +3,222 @@
 #include "render/draw_recorder.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace isoglass {
 namespace {
 
 using gl::Blend;
-using gl::Culling;
 using gl::DepthTest;
-using gl::PipelineState;
-using Begin = ColorWrite::Begin;
 
 constexpr const char* kFullScreen = "full_screen.vert";
 
-void drawOpaque(DrawRecorder& recorder) {
-    recorder.drawOpaque();
-}
-void drawSemiTransparent(DrawRecorder& recorder) {
-    recorder.drawSemiTransparent();
-}
-void drawFullScreen(DrawRecorder& recorder) {
-    recorder.drawFullScreen();
+constexpr std::array<std::string_view, kTargetCount> kTargetNames{
+    "opaque color",    "opaque depth", "composed",   "nearest back depth", "layer color", "even layer depth",
+    "odd layer depth", "sums",         "list heads", "linear image",       "sRGB image"};
+
+Target layerDepth(int layer) {
+    return layer % 2 == 0 ? Target::layerDepthEven : Target::layerDepthOdd;
 }
 
-PassDeclaration opaquePass(const PlannedPass& planned) {
-    PipelineState state;
-    state.depthTest = DepthTest::greater;
-    state.depthWrite = true;
-    return {.kind = planned.kind,
-            .reason = planned.reason,
-            .vertexShader = "surface.vert",
-            .fragmentShader = "opaque.frag",
-            .reads = {},
-            .writes = {{Target::opaqueColor, Begin::fillBackground}},
-            .depth = DepthUse{.target = Target::opaqueDepth, .clear = true},
-            .state = state,
-            .record = drawOpaque};
-}
+/// Declares the passes of one plan.
+class Declarer {
+  public:
+    Declarer(const FramePlan& plan, int subframe)
+        : plan_(plan), hasOpaque_(plan.runs(PassKind::opaque)), isFirst_(subframe == 0) {}
 
-/// Fragments at the very depth of an opaque surface count as in front of it, in attenuation and emission
-/// alike.
-PassDeclaration attenuationPass(const PlannedPass& planned) {
-    PipelineState state;
-    state.depthTest = DepthTest::greaterOrEqual;
-    state.blend[0] = Blend::multiply;
-    return {.kind = planned.kind,
-            .reason = planned.reason,
-            .vertexShader = "position.vert",
-            .fragmentShader = "attenuation.frag",
-            .reads = {},
-            .writes = {{Target::transmittance, Begin::fillOne}},
-            .depth = DepthUse{.target = Target::opaqueDepth},
-            .state = state,
-            .record = drawSemiTransparent};
-}
+    PassDeclaration declare(const PlannedPass& planned) const {
+        switch (planned.kind) {
+            case PassKind::opaque:
+                return opaque(planned);
+            case PassKind::backFaceDepth:
+                return backFaceDepth(planned);
+            case PassKind::blending:
+                return composing(planned, "blending.frag", Blend::over);
+            case PassKind::attenuationAndEmission:
+                return limited(composing(planned, "attenuation_and_emission.frag", Blend::emitAndDim));
+            case PassKind::integerSums:
+                return limited(counting(planned, "integer_sums.frag", Target::sums));
+            case PassKind::peeledLayer:
+                return peeledLayer(planned);
+            case PassKind::layerBlend:
+                return layerBlend(planned);
+            case PassKind::fragmentLists:
+                return counting(planned, "fragment_lists.frag", Target::listHeads);
+            case PassKind::resolve:
+                return resolve(planned);
+            case PassKind::accumulation:
+                return accumulation(planned);
+            case PassKind::presentation:
+                break;
+        }
+        PassDeclaration pass = fullScreen(planned, "present.frag");
+        pass.reads = {Target::linearImage};
+        pass.writes = {{Target::srgbImage}};
+        return pass;
+    }
 
-PassDeclaration emissionPass(const PlannedPass& planned, Target emissionLimit) {
-    PipelineState state;
-    state.depthTest = DepthTest::greaterOrEqual;
-    state.blend[0] = Blend::add;
-    return {.kind = planned.kind,
-            .reason = planned.reason,
-            .vertexShader = "surface.vert",
-            .fragmentShader = "emission.frag",
-            .reads = {},
-            .writes = {{Target::emission, Begin::fillZero}},
-            .depth = DepthUse{.target = emissionLimit},
-            .state = state,
-            .record = drawSemiTransparent};
-}
+  private:
+    static PassDeclaration geometry(const PlannedPass& planned, const char* vertexShader,
+                                    const char* fragmentShader) {
+        return {.planned = planned,
+                .vertexShader = vertexShader,
+                .fragmentShader = fragmentShader,
+                .record = [](DrawRecorder& recorder) { recorder.drawSemiTransparent(); }};
+    }
 
-PassDeclaration attenuationAndEmissionPass(const PlannedPass& planned) {
-    PipelineState state;
-    state.depthTest = DepthTest::greaterOrEqual;
-    state.blend[0] = Blend::multiply;
-    state.blend[1] = Blend::add;
-    return {.kind = planned.kind,
-            .reason = planned.reason,
-            .vertexShader = "surface.vert",
-            .fragmentShader = "attenuation_and_emission.frag",
-            .reads = {},
-            .writes = {{Target::transmittance, Begin::fillOne}, {Target::emission, Begin::fillZero}},
-            .depth = DepthUse{.target = Target::opaqueDepth},
-            .state = state,
-            .record = drawSemiTransparent};
-}
+    static PassDeclaration fullScreen(const PlannedPass& planned, const char* fragmentShader) {
+        return {.planned = planned,
+                .vertexShader = kFullScreen,
+                .fragmentShader = fragmentShader,
+                .record = [](DrawRecorder& recorder) { recorder.drawFullScreen(); }};
+    }
 
-PassDeclaration backFaceDepthPass(const PlannedPass& planned) {
-    PipelineState state;
-    state.depthTest = DepthTest::greater;
-    state.depthWrite = true;
-    state.culling = Culling::frontFaces;
-    return {.kind = planned.kind,
-            .reason = planned.reason,
-            .vertexShader = "position.vert",
-            .fragmentShader = "back_face_depth.frag",
-            .reads = {},
-            .writes = {},
-            .depth = DepthUse{.target = Target::nearestBackDepth, .copyFrom = Target::opaqueDepth},
-            .state = state,
-            .record = drawSemiTransparent};
-}
+    static PassDeclaration opaque(const PlannedPass& planned) {
+        PassDeclaration pass = geometry(planned, "surface.vert", "opaque.frag");
+        pass.writes = {{Target::opaqueColor, Begin::fillBackground}};
+        pass.depth = DepthUse{.target = Target::opaqueDepth, .clear = true};
+        pass.state = {.depthTest = DepthTest::greater, .depthWrite = true};
+        pass.record = [](DrawRecorder& recorder) { recorder.drawOpaque(); };
+        return pass;
+    }
 
-PassDeclaration resolvePass(const PlannedPass& planned, bool composed) {
-    std::vector<Target> reads{Target::opaqueColor};
-    if (composed) reads.insert(reads.end(), {Target::transmittance, Target::emission});
-    return {.kind = planned.kind,
-            .reason = planned.reason,
-            .vertexShader = kFullScreen,
-            .fragmentShader = composed ? "resolve_composed.frag" : "resolve_opaque.frag",
-            .reads = std::move(reads),
-            .writes = {{Target::linearImage}, {Target::srgbImage}},
-            .depth = std::nullopt,
-            .state = {},
-            .record = drawFullScreen};
-}
+    /// A depth target that starts as the opaque depth.
+    DepthUse startingOpaque(Target target) const {
+        if (!hasOpaque_) return {.target = target, .clear = true};
+        return {.target = target, .copyFrom = Target::opaqueDepth};
+    }
+
+    PassDeclaration backFaceDepth(const PlannedPass& planned) const {
+        PassDeclaration pass = geometry(planned, "position.vert", "back_face_depth.frag");
+        pass.depth = startingOpaque(Target::nearestBackDepth);
+        pass.state = {
+            .depthTest = DepthTest::greater, .depthWrite = true, .culling = gl::Culling::frontFaces};
+        return pass;
+    }
+
+    /// Fragments at the very depth of an opaque surface count as in front of it, in every method.
+    PassDeclaration inFrontOfOpaque(const PlannedPass& planned, const char* fragmentShader) const {
+        PassDeclaration pass = geometry(planned, "surface.vert", fragmentShader);
+        if (hasOpaque_) {
+            pass.depth = DepthUse{.target = Target::opaqueDepth};
+            pass.state.depthTest = DepthTest::greaterOrEqual;
+        }
+        return pass;
+    }
+
+    PassDeclaration composing(const PlannedPass& planned, const char* fragmentShader, Blend blend) const {
+        PassDeclaration pass = inFrontOfOpaque(planned, fragmentShader);
+        pass.writes = {{Target::composed, Begin::fillClear}};
+        pass.state.blend[0] = blend;
+        return pass;
+    }
+
+    PassDeclaration counting(const PlannedPass& planned, const char* fragmentShader, Target image) const {
+        PassDeclaration pass = inFrontOfOpaque(planned, fragmentShader);
+        pass.image = image;
+        return pass;
+    }
+
+    /// Cuts the emission at the nearest back face.
+    PassDeclaration limited(PassDeclaration pass) const {
+        if (plan_.method != TransparencyMethod::fourPass || !plan_.runs(PassKind::backFaceDepth)) return pass;
+        pass.defines.push_back("CUT_EMISSION");
+        pass.reads.push_back(Target::nearestBackDepth);
+        return pass;
+    }
+
+    PassDeclaration peeledLayer(const PlannedPass& planned) const {
+        PassDeclaration pass = geometry(planned, "surface.vert", "peeled_layer.frag");
+        if (planned.layer > 0) {
+            const Target previous = layerDepth(planned.layer - 1);
+            pass.reads = {previous};
+            pass.defines = {"PREVIOUS_LAYER " + std::to_string(static_cast<int>(previous))};
+        }
+        pass.writes = {{Target::layerColor, Begin::fillZero}};
+        pass.depth = startingOpaque(layerDepth(planned.layer));
+        pass.state = {.depthTest = DepthTest::greaterOrEqual, .depthWrite = true};
+        return pass;
+    }
+
+    static PassDeclaration layerBlend(const PlannedPass& planned) {
+        PassDeclaration pass = fullScreen(planned, "layer_blend.frag");
+        pass.reads = {Target::layerColor};
+        pass.writes = {{Target::composed, planned.layer == 0 ? Begin::fillClear : Begin::keep}};
+        pass.state.blend[0] = Blend::under;
+        return pass;
+    }
+
+    /// What the resolve reads: that of the method, as far as its passes run.
+    std::pair<const char*, std::optional<Target>> whatIsInFront() const {
+        using Method = TransparencyMethod;
+        const bool sums = plan_.method == Method::threePass || plan_.method == Method::fourPass;
+        const bool lists = plan_.method == Method::exact || plan_.method == Method::peel;
+        if (lists && (plan_.method == Method::exact || plan_.reproducible)) {
+            if (plan_.runs(PassKind::fragmentLists)) return {"resolve_lists.frag", Target::listHeads};
+        } else if (sums && plan_.reproducible) {
+            if (plan_.runs(PassKind::integerSums)) return {"resolve_sums.frag", Target::sums};
+        } else if (plan_.runs(sums    ? PassKind::attenuationAndEmission
+                              : lists ? PassKind::layerBlend
+                                      : PassKind::blending)) {
+            return {"resolve_composed.frag", Target::composed};
+        }
+        return {"resolve_behind.frag", std::nullopt};
+    }
+
+    PassDeclaration resolve(const PlannedPass& planned) const {
+        const auto [shader, front] = whatIsInFront();
+        PassDeclaration pass = fullScreen(planned, shader);
+        if (front) pass.reads.push_back(*front);
+        if (hasOpaque_) {
+            pass.reads.push_back(Target::opaqueColor);
+            pass.defines.push_back("OPAQUE_BEHIND");
+        }
+        if (plan_.supersample > 1) {
+            pass.defines.push_back("SUPERSAMPLE " + std::to_string(plan_.supersample));
+        }
+        pass.writes = {{Target::srgbImage}};
+        return pass;
+    }
+
+    PassDeclaration accumulation(const PlannedPass& planned) const {
+        PassDeclaration pass = resolve(planned);
+        pass.defines.push_back("KEEP_LINEAR");
+        pass.writes = {{Target::linearImage, isFirst_ ? Begin::fillZero : Begin::keep}};
+        pass.state.blend[0] = Blend::add;
+        return pass;
+    }
+
+    const FramePlan& plan_;
+    const bool hasOpaque_;
+    const bool isFirst_;
+};
 
 [[noreturn]] void throwFlow(const PassDeclaration& pass, Target target, const char* what) {
-    throw std::logic_error("pass " + std::string(passName(pass.kind)) + ": " + what + " " +
+    throw std::logic_error("pass " + passLabel(pass.planned) + ": " + what + " " +
                            std::string(targetName(target)));
 }
 
 }  // namespace
 
 std::string_view targetName(Target target) {
-    switch (target) {
-        case Target::opaqueColor:
-            return "opaque color";
-        case Target::opaqueDepth:
-            return "opaque depth";
-        case Target::transmittance:
-            return "transmittance";
-        case Target::emission:
-            return "emission";
-        case Target::nearestBackDepth:
-            return "nearest back depth";
-        case Target::linearImage:
-            return "linear image";
-        case Target::srgbImage:
-            return "sRGB image";
-    }
-    return {};
+    return kTargetNames[static_cast<std::size_t>(target)];
 }
 
-std::vector<PassDeclaration> declarePasses(const FramePlan& plan) {
-    const bool cutsEmission = plan.runs(PassKind::backFaceDepth);
-    const bool composed = plan.runs(PassKind::emission) || plan.runs(PassKind::attenuationAndEmission);
+bool PassDeclaration::usesLists() const {
+    const bool isRead = std::find(reads.begin(), reads.end(), Target::listHeads) != reads.end();
+    return isRead || (image && *image == Target::listHeads);
+}
+
+std::vector<PassDeclaration> declarePasses(const FramePlan& plan, int subframe) {
+    const Declarer declarer(plan, subframe);
     std::vector<PassDeclaration> passes;
     for (const PlannedPass& planned : plan.passes) {
-        switch (planned.kind) {
-            case PassKind::opaque:
-                passes.push_back(opaquePass(planned));
-                break;
-            case PassKind::attenuation:
-                passes.push_back(attenuationPass(planned));
-                break;
-            case PassKind::emission:
-                passes.push_back(
-                    emissionPass(planned, cutsEmission ? Target::nearestBackDepth : Target::opaqueDepth));
-                break;
-            case PassKind::attenuationAndEmission:
-                passes.push_back(attenuationAndEmissionPass(planned));
-                break;
-            case PassKind::backFaceDepth:
-                passes.push_back(backFaceDepthPass(planned));
-                break;
-            case PassKind::resolve:
-                passes.push_back(resolvePass(planned, composed));
-                break;
-        }
+        if (planned.kind == PassKind::presentation && subframe + 1 < plan.subframes) continue;
+        passes.push_back(declarer.declare(planned));
     }
     return passes;
 }
@@ -193,8 +239,12 @@ void checkDataFlow(std::span<const PassDeclaration> passes) {
             if (std::find(pass.reads.begin(), pass.reads.end(), write.target) != pass.reads.end()) {
                 throwFlow(pass, write.target, "reads and writes");
             }
+            // Blending goes on with what is there; the linear image is that of the picture before.
+            const bool goesOn = write.begin == Begin::keep && pass.state.blend[0] != Blend::replace;
+            if (goesOn && write.target != Target::linearImage) need(write.target);
             written.insert(write.target);
         }
+        if (pass.image) written.insert(*pass.image);
         if (!pass.depth) continue;
         if (pass.depth->copyFrom) need(*pass.depth->copyFrom);
         if (!pass.depth->copyFrom && !pass.depth->clear) need(pass.depth->target);

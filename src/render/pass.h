@@ -3,7 +3,6 @@
 #include "gl/pipeline_state.h"
 #include "plan/frame_plan.h"
 
-#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -18,21 +17,32 @@ class DrawRecorder;
 enum class Target {
     opaqueColor,       ///< RGB linear times alpha, 32-bit float; alpha is 1 but for the background's
     opaqueDepth,       ///< 32-bit float, reversed; only opaque things write it
-    transmittance,     ///< product of (1 - opacity), 32-bit float
-    emission,          ///< RGB linear, 32-bit float
+    composed,          ///< RGB emission, A transmittance of what is semi-transparent; 32-bit float
     nearestBackDepth,  ///< nearer one of opaqueDepth and the nearest semi-transparent back face
+    layerColor,        ///< RGB emission, A opacity of one peeled layer; 32-bit float
+    layerDepthEven,    ///< depth of the peeled layers 0, 2, ...
+    layerDepthOdd,     ///< depth of the peeled layers 1, 3, ...
+    sums,              ///< integers, 5 layers: see shaders/lib/integer_sums.glsl
+    listHeads,         ///< integers: first node of a pixel's fragment list
     linearImage,       ///< the picture before exposure, RGB times alpha, 32-bit float, size of the image
     srgbImage,         ///< the picture with straight alpha, 8 bits, size of the image
 };
-inline constexpr std::size_t kTargetCount = 7;
+inline constexpr std::size_t kTargetCount = 11;
 
 std::string_view targetName(Target target);
+
+/// What a pass does first with a target.
+enum class Begin {
+    keep,            ///< nothing: it goes on, or covers every pixel
+    fillBackground,  ///< the frame's background
+    fillZero,        ///< 0
+    fillClear,       ///< no emission, transmittance 1
+};
 
 /// A color target that a pass writes: fragment output i goes to the i-th.
 struct ColorWrite {
     Target target;
-    /// What to do first: fill with a color; nothing where the pass covers every pixel.
-    enum class Begin { keep, fillBackground, fillZero, fillOne } begin = Begin::keep;
+    Begin begin = Begin::keep;
 };
 
 /// The depth target that a pass tests against and, where its state says so, writes.
@@ -43,20 +53,29 @@ struct DepthUse {
 };
 
 /// A pass as data. The executor alone binds targets, applies state, pushes debug groups and times.
+///
+/// A pass that writes `listHeads` and the one behind it, which reads them, run together for one part of
+/// the picture after another where not all fragments fit the memory.
 struct PassDeclaration {
-    PassKind kind;
-    std::string reason;  ///< from the plan
+    PlannedPass planned;
     const char* vertexShader;
     const char* fragmentShader;
-    std::vector<Target> reads;  ///< as textures
-    std::vector<ColorWrite> writes;
-    std::optional<DepthUse> depth;
-    gl::PipelineState state;
+    std::vector<std::string> defines{};  ///< of the fragment shader
+    std::vector<Target> reads{};         ///< as textures
+    std::vector<ColorWrite> writes{};
+    /// An integer target, filled with 0, that shaders change by atomic operations at image unit 0.
+    std::optional<Target> image{};
+    std::optional<DepthUse> depth{};
+    gl::PipelineState state{};
     std::function<void(DrawRecorder&)> record;  ///< called once, inside the pass
+
+    /// Whether the nodes of the fragment lists are used, too.
+    bool usesLists() const;
 };
 
-/// The declarations of a plan's passes, in its order.
-std::vector<PassDeclaration> declarePasses(const FramePlan& plan);
+/// The declarations of a plan's passes, in its order, for one of the plan's subframes: the first one
+/// begins the linear image, the presentation comes with the last one.
+std::vector<PassDeclaration> declarePasses(const FramePlan& plan, int subframe = 0);
 
 /// Makes every pass over the surfaces draw their triangles' edges; those over the whole image stay.
 void drawWireframe(std::span<PassDeclaration> passes);

@@ -1,7 +1,10 @@
 #include "render/pass_executor.h"
 
+#include "base/error.h"
+
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 #include <stdexcept>
 
 namespace isoglass {
@@ -28,9 +31,15 @@ std::optional<Target> depthTarget(const PassDeclaration& pass) {
     return pass.depth ? std::optional(pass.depth->target) : std::nullopt;
 }
 
-glm::vec4 fillColor(ColorWrite::Begin begin, const glm::vec4& background) {
-    if (begin == ColorWrite::Begin::fillBackground) return background;
-    return glm::vec4(begin == ColorWrite::Begin::fillOne ? 1.0f : 0.0f);
+/// A target whose pixels the pass draws.
+Target drawnTarget(const PassDeclaration& pass) {
+    if (!pass.writes.empty()) return pass.writes[0].target;
+    return pass.image ? *pass.image : pass.depth->target;
+}
+
+glm::vec4 fillColor(Begin begin, const glm::vec4& background) {
+    if (begin == Begin::fillBackground) return background;
+    return {0, 0, 0, begin == Begin::fillClear ? 1 : 0};
 }
 
 void copyDepth(Target from, Target to, RenderTargets& targets) {
@@ -41,10 +50,17 @@ void copyDepth(Target from, Target to, RenderTargets& targets) {
                            GL_DEPTH_BUFFER_BIT, GL_NEAREST);
 }
 
+void fillZero(const gl::Texture& texture, glm::ivec2 origin, glm::ivec2 size) {
+    constexpr GLuint kZero = 0;
+    glClearTexSubImage(texture.name(), 0, origin.x, origin.y, 0, size.x, size.y, texture.layers(),
+                       GL_RED_INTEGER, GL_UNSIGNED_INT, &kZero);
+}
+
+/// Obeys the scissor rectangle.
 void fillTargets(const PassDeclaration& pass, RenderTargets& targets, const gl::Framebuffer& framebuffer,
                  const glm::vec4& background) {
     for (std::size_t i = 0; i < pass.writes.size(); ++i) {
-        if (pass.writes[i].begin == ColorWrite::Begin::keep) continue;
+        if (pass.writes[i].begin == Begin::keep) continue;
         const glm::vec4 color = fillColor(pass.writes[i].begin, background);
         glClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, static_cast<GLint>(i), &color[0]);
     }
@@ -68,75 +84,140 @@ void bindReads(const PassDeclaration& pass, RenderTargets& targets) {
 }  // namespace
 
 void checkInterface(const PassDeclaration& pass, const gl::Program& program) {
+    const auto check = [&](const std::vector<int>& inShaders, const std::vector<int>& declared,
+                           const char* what) {
+        if (inShaders == declared) return;
+        throw std::logic_error("pass " + passLabel(pass.planned) + ": its shaders " + what +
+                               " than it declares");
+    };
     std::vector<int> units;
     for (const Target target : pass.reads) units.push_back(static_cast<int>(target));
     std::sort(units.begin(), units.end());
-    const std::string name(passName(pass.kind));
-    if (program.samplerUnits() != units) {
-        throw std::logic_error("pass " + name + ": its shaders read other textures than it declares");
-    }
     std::vector<int> outputs(pass.writes.size());
-    for (std::size_t i = 0; i < outputs.size(); ++i) outputs[i] = static_cast<int>(i);
-    if (program.outputLocations() != outputs) {
-        throw std::logic_error("pass " + name + ": its shaders write other outputs than it declares");
-    }
+    std::iota(outputs.begin(), outputs.end(), 0);
+    check(program.samplerUnits(), units, "read other textures");
+    check(program.outputLocations(), outputs, "write other outputs");
+    check(program.imageUnits(), std::vector<int>(pass.image ? 1 : 0, 0), "use other images");
+    check(program.storageBindings(), std::vector<int>(pass.usesLists() ? 1 : 0, FragmentLists::kBinding),
+          "use other storage");
 }
 
-void PassExecutor::run(std::span<const PassDeclaration> passes, RenderTargets& targets,
-                       const glm::vec4& background, DrawRecorder& recorder,
-                       std::vector<PassTiming>* timings) {
+void PassExecutor::run(std::span<const PassDeclaration> passes, const Frame& frame) {
     checkDataFlow(passes);
-    for (const PassDeclaration& pass : passes) {
-        if (timings != nullptr) {
-            timings->push_back(timed(pass, targets, background, recorder));
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+        const PassDeclaration& pass = passes[i];
+        if (pass.usesLists() && i + 1 < passes.size() && passes[i + 1].usesLists()) {
+            runLists(pass, passes[i + 1], frame, {{0, 0}, frame.targets.sizeOf(Target::srgbImage)});
+            ++i;
         } else {
-            runPass(pass, targets, background, recorder);
+            runTimed(pass, frame, {{0, 0}, frame.targets.sizeOf(Target::srgbImage)});
         }
     }
 }
 
+void PassExecutor::runLists(const PassDeclaration& build, const PassDeclaration& use, const Frame& frame,
+                            const Region& picture) {
+    std::vector<Region> todo{picture};
+    while (!todo.empty()) {
+        const Region region = todo.back();
+        lists_.begin();
+        runTimed(build, frame, region);
+        const std::uint32_t asked = lists_.asked();
+        if (asked <= lists_.capacity()) {
+            runTimed(use, frame, region);
+            todo.pop_back();
+        } else if (!lists_.grow(asked)) {
+            if (region.size == glm::ivec2(1)) {
+                throw Error(std::to_string(asked) + " fragments in one pixel do not fit the memory for lists",
+                            "exact composition", "choose another transparency method");
+            }
+            todo.pop_back();
+            const std::vector<Region> parts = split(region, asked / lists_.capacity() + 2);
+            todo.insert(todo.end(), parts.begin(), parts.end());
+        }
+    }
+}
+
+/// Strips across the longer side, at least two.
+std::vector<PassExecutor::Region> PassExecutor::split(const Region& region, std::uint64_t parts) {
+    const int axis = region.size.x > region.size.y ? 0 : 1;
+    const int length = region.size[axis];
+    const auto count = static_cast<int>(std::min<std::uint64_t>(parts, static_cast<std::uint64_t>(length)));
+    std::vector<Region> strips;
+    for (int i = 0; i < count; ++i) {
+        Region strip = region;
+        const int begin = static_cast<int>(std::int64_t{length} * i / count);
+        strip.origin[axis] += begin;
+        strip.size[axis] = static_cast<int>(std::int64_t{length} * (i + 1) / count) - begin;
+        strips.push_back(strip);
+    }
+    return strips;
+}
+
 const gl::Program& PassExecutor::program(const PassDeclaration& pass) {
-    const std::pair<std::string, std::string> key(pass.vertexShader, pass.fragmentShader);
+    const std::tuple key(std::string(pass.vertexShader), std::string(pass.fragmentShader), pass.defines);
     if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
-    gl::Program made(pass.vertexShader, pass.fragmentShader);
+    gl::Program made(pass.vertexShader, pass.fragmentShader, pass.defines);
     checkInterface(pass, made);
     return programs_.emplace(key, std::move(made)).first->second;
 }
 
-void PassExecutor::runPass(const PassDeclaration& pass, RenderTargets& targets, const glm::vec4& background,
-                           DrawRecorder& recorder) {
+void PassExecutor::runPass(const PassDeclaration& pass, const Frame& frame, const Region& region) {
+    RenderTargets& targets = frame.targets;
     const gl::Program& shaders = program(pass);
-    const DebugGroup group(passName(pass.kind));
-    const gl::Framebuffer& framebuffer =
-        targets.framebuffer(colorTargets(pass), depthTarget(pass), std::string(passName(pass.kind)));
+    const std::string label = passLabel(pass.planned);
+    const DebugGroup group(label);
+    const gl::Framebuffer& framebuffer = targets.framebuffer(colorTargets(pass), depthTarget(pass), label);
+    const glm::ivec2 size = targets.sizeOf(drawnTarget(pass));
+    const int scale = size.x / targets.sizeOf(Target::srgbImage).x;
+    const glm::ivec2 origin = region.origin * scale;
+    const glm::ivec2 extent = region.size * scale;
     // Clearing obeys the write masks.
     state_.apply({.depthWrite = true});
-    fillTargets(pass, targets, framebuffer, background);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(origin.x, origin.y, extent.x, extent.y);
+    fillTargets(pass, targets, framebuffer, frame.background);
+    if (pass.image) {
+        const gl::Texture& image = targets.texture(*pass.image);
+        fillZero(image, origin, extent);
+        glBindImageTexture(0, image.name(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
+    }
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer.name());
-    const glm::ivec2 size = targets.sizeOf(pass.writes.empty() ? pass.depth->target : pass.writes[0].target);
     glViewport(0, 0, size.x, size.y);
     bindReads(pass, targets);
     glUseProgram(shaders.name());
-    recorder.beginPass(pass.state);
-    pass.record(recorder);
+    frame.recorder.beginPass(pass.state);
+    pass.record(frame.recorder);
+    glDisable(GL_SCISSOR_TEST);
+    if (pass.image) glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-PassTiming PassExecutor::timed(const PassDeclaration& pass, RenderTargets& targets,
-                               const glm::vec4& background, DrawRecorder& recorder) {
-    const std::string label(passName(pass.kind));
-    if (!context_.isSoftware()) {
+void PassExecutor::runTimed(const PassDeclaration& pass, const Frame& frame, const Region& region) {
+    if (frame.timings == nullptr) return runPass(pass, frame, region);
+    const std::string label = passLabel(pass.planned);
+    PassTiming timing{label, 0, PassTiming::How::serialWallClock};
+    if (context_.isSoftware()) {
+        glFinish();
+        const auto begin = std::chrono::steady_clock::now();
+        runPass(pass, frame, region);
+        glFinish();
+        timing.milliseconds =
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    } else {
         const gl::TimerQuery query;
         query.begin();
-        runPass(pass, targets, background, recorder);
+        runPass(pass, frame, region);
         query.end();
-        return {label, query.milliseconds(), PassTiming::How::gpuTimer};
+        timing.milliseconds = query.milliseconds();
+        timing.how = PassTiming::How::gpuTimer;
     }
-    glFinish();
-    const auto begin = std::chrono::steady_clock::now();
-    runPass(pass, targets, background, recorder);
-    glFinish();
-    const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
-    return {label, taken.count(), PassTiming::How::serialWallClock};
+    const auto known = std::find_if(frame.timings->begin(), frame.timings->end(),
+                                    [&](const PassTiming& other) { return other.label == label; });
+    if (known == frame.timings->end()) {
+        frame.timings->push_back(timing);
+    } else {
+        known->milliseconds += timing.milliseconds;
+    }
 }
 
 }  // namespace isoglass

@@ -4,13 +4,14 @@
 #include "gl/pipeline_state.h"
 #include "gl/program.h"
 #include "render/draw_recorder.h"
+#include "render/fragment_lists.h"
 #include "render/pass.h"
 #include "render/render_targets.h"
 
 #include <map>
 #include <span>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 namespace isoglass {
@@ -26,8 +27,8 @@ struct PassTiming {
     How how;
 };
 
-/// Throws std::logic_error where a pass does not declare exactly the textures that its shaders read and
-/// the outputs that they write.
+/// Throws std::logic_error where a pass does not declare exactly the textures, images and storage that its
+/// shaders use and the outputs that they write.
 void checkInterface(const PassDeclaration& pass, const gl::Program& program);
 
 /// Runs declared passes: binds targets, applies state, pushes debug groups, times.
@@ -35,22 +36,39 @@ class PassExecutor {
   public:
     PassExecutor(gl::Context& context, gl::StateCache& state) : context_(context), state_(state) {}
 
-    /// `background` is multiplied by its alpha. With `timings`, appends one entry a pass; this waits for the
-    /// GPU. Programs are made when a pass first needs them. Throws Error for a shader that the driver
-    /// refuses.
-    void run(std::span<const PassDeclaration> passes, RenderTargets& targets, const glm::vec4& background,
-             DrawRecorder& recorder, std::vector<PassTiming>* timings);
+    /// What the passes of a frame draw with and into.
+    struct Frame {
+        RenderTargets& targets;
+        DrawRecorder& recorder;
+        glm::vec4 background;  ///< color times alpha, and alpha
+        /// One entry a pass is added, or time where a pass of that label has an entry; this waits for the
+        /// GPU. May be null.
+        std::vector<PassTiming>* timings;
+    };
+
+    /// Programs are made when a pass first needs them. Throws Error for a shader that the driver refuses,
+    /// and where the fragments of a single pixel do not fit the memory of the lists.
+    void run(std::span<const PassDeclaration> passes, const Frame& frame);
+
+    FragmentLists& lists() { return lists_; }
 
   private:
+    /// A part of the picture, in pixels from its lower left corner.
+    struct Region {
+        glm::ivec2 origin, size;
+    };
+
     const gl::Program& program(const PassDeclaration& pass);
-    void runPass(const PassDeclaration& pass, RenderTargets& targets, const glm::vec4& background,
-                 DrawRecorder& recorder);
-    PassTiming timed(const PassDeclaration& pass, RenderTargets& targets, const glm::vec4& background,
-                     DrawRecorder& recorder);
+    void runPass(const PassDeclaration& pass, const Frame& frame, const Region& region);
+    void runTimed(const PassDeclaration& pass, const Frame& frame, const Region& region);
+    void runLists(const PassDeclaration& build, const PassDeclaration& use, const Frame& frame,
+                  const Region& picture);
+    static std::vector<Region> split(const Region& region, std::uint64_t parts);
 
     gl::Context& context_;
     gl::StateCache& state_;
-    std::map<std::pair<std::string, std::string>, gl::Program> programs_;
+    FragmentLists lists_;
+    std::map<std::tuple<std::string, std::string, std::vector<std::string>>, gl::Program> programs_;
 };
 
 }  // namespace isoglass

@@ -10,19 +10,26 @@ namespace {
 GLenum formatOf(Target target) {
     switch (target) {
         case Target::opaqueColor:
-        case Target::emission:
-        // Three-component floats need not be drawable.
+        case Target::composed:
+        case Target::layerColor:
         case Target::linearImage:
             return GL_RGBA32F;
-        case Target::transmittance:
-            return GL_R32F;
         case Target::opaqueDepth:
         case Target::nearestBackDepth:
+        case Target::layerDepthEven:
+        case Target::layerDepthOdd:
             return GL_DEPTH_COMPONENT32F;
+        case Target::sums:
+        case Target::listHeads:
+            return GL_R32UI;
         case Target::srgbImage:
             return GL_RGBA8;
     }
     return GL_NONE;
+}
+
+int layersOf(Target target) {
+    return target == Target::sums ? 5 : 1;
 }
 
 std::string text(glm::ivec2 size) {
@@ -40,9 +47,6 @@ int largestSide() {
 void check(glm::ivec2 imageSize, int supersample) {
     if (imageSize.x < 1 || imageSize.y < 1)
         throw Error("an image of " + text(imageSize) + " pixels", "image");
-    if (supersample < 1 || supersample > 2) {
-        throw Error("supersampling by " + std::to_string(supersample), "image", "choose 1 or 2");
-    }
     const int most = largestSide() / supersample;
     if (std::max(imageSize.x, imageSize.y) > most) {
         throw Error("an image of " + text(imageSize) + " pixels is larger than this driver draws", "image",
@@ -68,7 +72,7 @@ glm::ivec2 RenderTargets::sizeOf(Target target) const {
 
 const gl::Texture& RenderTargets::texture(Target target) {
     auto& texture = textures_[static_cast<std::size_t>(target)];
-    if (!texture) texture.emplace(formatOf(target), sizeOf(target));
+    if (!texture) texture.emplace(formatOf(target), sizeOf(target), layersOf(target));
     return *texture;
 }
 
@@ -78,7 +82,8 @@ const gl::Framebuffer& RenderTargets::framebuffer(const std::vector<Target>& col
     if (const auto found = framebuffers_.find(key); found != framebuffers_.end()) return found->second;
     std::vector<const gl::Texture*> attachments;
     for (const Target color : colors) attachments.push_back(&texture(color));
-    gl::Framebuffer made(attachments, depth ? &texture(*depth) : nullptr, label);
+    // Only passes over samples, not pixels, have no target at all.
+    gl::Framebuffer made(attachments, depth ? &texture(*depth) : nullptr, label, sizeOf(Target::composed));
     return framebuffers_.emplace(key, std::move(made)).first->second;
 }
 

@@ -1,7 +1,11 @@
 #include "render/renderer.h"
 
+#include "base/error.h"
+#include "render/sample_positions.h"
+
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 
 namespace isoglass {
 namespace {
@@ -31,24 +35,71 @@ Raster<Pixel> readBack(gl::Context& context, RenderTargets& targets, Target targ
     return raster;
 }
 
+void checkCount(int count, int most, const char* what) {
+    if (count >= 1 && count <= most) return;
+    throw Error(std::to_string(count) + " " + what, "image", "choose 1 to " + std::to_string(most));
+}
+
+void check(const FrameDescription& frame) {
+    checkCount(frame.samples, kMostSamples, "samples a pixel");
+    checkCount(frame.layers, kMostLayers, "layers to peel");
+}
+
 }  // namespace
 
 Renderer::Renderer(gl::Context& context)
     : context_(context), meshes_(context), recorder_(state_), executor_(context, state_) {}
 
-void Renderer::render(const FrameDescription& frame) {
-    timings_.clear();
-    targets_.resize(frame.camera.size, frame.supersample);
+FramePlan Renderer::planOf(const FrameDescription& frame) {
+    check(frame);
     recorder_.prepare(frame, meshes_);
-    plan_ = planFrame({.opaqueSurfaces = recorder_.opaqueCount(),
-                       .semiTransparentSurfaces = recorder_.semiTransparentCount(),
-                       .method = frame.method,
-                       .separatePasses = frame.separatePasses});
-    std::vector<PassDeclaration> passes = declarePasses(plan_);
-    if (frame.wireframe) drawWireframe(passes);
-    const glm::vec4 background(frame.background * frame.backgroundOpacity, frame.backgroundOpacity);
-    executor_.run(passes, targets_, background, recorder_, timing_ ? &timings_ : nullptr);
+    return planFrame({.opaqueSurfaces = recorder_.opaqueCount(),
+                      .semiTransparentSurfaces = recorder_.semiTransparentCount(),
+                      .method = frame.method,
+                      .layers = frame.layers,
+                      .reproducible = frame.reproducible,
+                      .exactWanted = frame.exactWanted,
+                      .overlapImpossible = recorder_.overlapImpossible(),
+                      .samples = frame.samples,
+                      .keepLinear = frame.keepLinear});
+}
+
+void Renderer::render(const FrameDescription& frame) {
+    render(frame, planOf(frame));
+}
+
+void Renderer::render(const FrameDescription& frame, const FramePlan& plan) {
+    check(frame);
+    timings_.clear();
+    shown_.reset();
+    plan_ = plan;
+    targets_.resize(frame.camera.size, plan_.supersample);
+    recorder_.prepare(frame, meshes_);
+    const PassExecutor::Frame parts{
+        .targets = targets_,
+        .recorder = recorder_,
+        .background = {frame.background * frame.backgroundOpacity, frame.backgroundOpacity},
+        .timings = timing_ ? &timings_ : nullptr};
+    for (int i = 0; i < plan_.subframes; ++i) {
+        recorder_.upload(samplePosition(i, plan_.subframes) / double(plan_.supersample), plan_.subframes);
+        std::vector<PassDeclaration> passes = declarePasses(plan_, i);
+        if (frame.wireframe) drawWireframe(passes);
+        executor_.run(passes, parts);
+    }
     context_.debugLog().throwIfAny("frame");
+    drawnSubframes_ = plan_.subframes;
+    drewOpaque_ = plan_.runs(PassKind::opaque);
+    shown_ = frame;
+}
+
+bool Renderer::renderIfChanged(const FrameDescription& frame) {
+    if (shown_ != frame) {
+        render(frame);
+        return true;
+    }
+    timings_.clear();
+    plan_ = planFrame({.unchanged = true});
+    return false;
 }
 
 glm::ivec2 Renderer::copyToWindow() {
@@ -63,7 +114,11 @@ glm::ivec2 Renderer::copyToWindow() {
 }
 
 LinearImage Renderer::readLinear() {
-    return readBack<glm::vec3>(context_, targets_, Target::linearImage, GL_RGB, GL_FLOAT);
+    if (!shown_ || !shown_->keepLinear) throw std::logic_error("the linear image was not kept");
+    LinearImage image = readBack<glm::vec3>(context_, targets_, Target::linearImage, GL_RGB, GL_FLOAT);
+    const float share = 1 / static_cast<float>(drawnSubframes_);
+    for (glm::vec3& pixel : image.pixels) pixel *= share;
+    return image;
 }
 
 Image Renderer::readSrgb() {
@@ -71,6 +126,11 @@ Image Renderer::readSrgb() {
 }
 
 DepthImage Renderer::readDepth() {
+    if (shown_ && !drewOpaque_) {
+        const glm::ivec2 size = targets_.sizeOf(Target::opaqueDepth);
+        return {size,
+                std::vector<float>(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y))};
+    }
     return readBack<float>(context_, targets_, Target::opaqueDepth, GL_DEPTH_COMPONENT, GL_FLOAT);
 }
 

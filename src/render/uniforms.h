@@ -11,13 +11,15 @@ namespace isoglass {
 struct FrameUniforms {
     static constexpr unsigned kBinding = 0;
 
+    glm::vec4 background;
     float ambient;
     float diffuse;
     float specular;
     float shininess;
     float exposure;
-    int supersample;
-    float padding[2] = {};
+    float accumulationShare;
+    int layerLimit;
+    float padding[1] = {};
 };
 
 /// Uniform block `Draw` of shaders/lib/draw.glsl, std140.

@@ -58,6 +58,11 @@ int JsonNode::integer(int low, int high) const {
     return static_cast<int>(number);
 }
 
+bool JsonNode::boolean() const {
+    if (!value_->is_boolean()) failExpected("true or false");
+    return value_->get<bool>();
+}
+
 const std::string& JsonNode::text() const {
     if (!value_->is_string()) failExpected("a text");
     return value_->get_ref<const std::string&>();

@@ -35,6 +35,7 @@ class JsonNode {
 
     double number(const NumberRange& range = {}) const;
     int integer(int low, int high) const;
+    bool boolean() const;
     const std::string& text() const;
     /// One of `words`, as its index.
     std::size_t choice(std::span<const std::string_view> words) const;

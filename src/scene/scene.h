@@ -20,8 +20,28 @@ using LinearColor = glm::vec3;
 /// Which side of an iso-surface is inside. The normal points outside.
 enum class Inside { above, below };
 
-/// How semi-transparent surfaces are composed (S. Roettger, "Volume rendering with libMini", 2007, section 4).
-enum class TransparencyMethod { automatic, threePass, fourPass };
+/// How semi-transparent surfaces are composed (S. Roettger, "Volume rendering with libMini", 2007, section
+/// 4).
+enum class TransparencyMethod {
+    automatic,  ///< exact where the quality asks for it, 2-pass where nothing can overlap, otherwise 4-pass
+    twoPass,    ///< blended in the order of the scene: right where no ray meets two of them
+    threePass,  ///< every surface dims what is opaque and adds its light
+    fourPass,   ///< the same, with no light from beyond the nearest back face
+    peel,       ///< in depth order, the nearest layers alone
+    exact,      ///< in depth order, all of them
+};
+
+inline constexpr int kMostLayers = 256;  ///< of the method peel
+inline constexpr int kMostSamples = 64;  ///< of a pixel
+
+struct Transparency {
+    TransparencyMethod method = TransparencyMethod::automatic;
+    int layers = 4;  ///< nearest ones that the method peel shows
+    /// The same bits on one driver for any order of volumes, surfaces and triangles: sums in integers.
+    bool reproducible = false;
+
+    friend bool operator==(const Transparency&, const Transparency&) = default;
+};
 
 /// One iso-surface of a volume.
 struct Surface {
@@ -57,7 +77,7 @@ struct Volume {
     /// Absolute, or relative to the working directory. The name of the file may be a pattern with * and ?.
     std::filesystem::path series;
     std::vector<std::filesystem::path> moreSeries;  ///< more files or patterns: one series in all
-    std::string grid;              ///< name that the series must have; empty takes any
+    std::string grid;                               ///< name that the series must have; empty takes any
     Placement place;
     ClockMap time;
     std::vector<Surface> surfaces;
@@ -120,8 +140,8 @@ struct Camera {
 struct ImageSettings {
     glm::ivec2 size{1280, 720};
     LinearColor background{0.00518151652f, 0.00699541019f, 0.00913405884f};  ///< #101418
-    float exposure = 1;   ///< linear factor before the sRGB curve
-    int supersample = 1;  ///< samples along each side of a pixel: 1, or 2 for four samples a pixel
+    float exposure = 1;           ///< linear factor before the sRGB curve
+    int samples = 1;              ///< a pixel, 1 to kMostSamples, averaged in linear light
     float backgroundOpacity = 1;  ///< below 1 pictures have alpha
 
     friend bool operator==(const ImageSettings&, const ImageSettings&) = default;
@@ -138,11 +158,12 @@ struct Lighting {
 };
 
 /// Accuracy and speed that the user wants; at most one of `pixels` and `errorPixels`. Full resolution
-/// satisfies any accuracy, so nothing acts on these yet.
+/// satisfies any accuracy, so nothing acts on the first three yet.
 struct Quality {
     std::optional<double> pixels;             ///< size of a cell on the screen
     std::optional<double> errorPixels;        ///< displacement of the surface on the screen
     std::optional<double> frameMilliseconds;  ///< time a displayed frame may take
+    bool exactOrder = false;                  ///< transparency that is left to `auto` is exact
 
     friend bool operator==(const Quality&, const Quality&) = default;
 };
@@ -155,7 +176,7 @@ struct Scene {
     ImageSettings image;
     Lighting lighting;
     Quality quality;
-    TransparencyMethod transparency = TransparencyMethod::automatic;
+    Transparency transparency;
     /// Keys that were understood but change nothing in this version, a sentence each.
     std::vector<std::string> notes;
 

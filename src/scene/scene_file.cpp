@@ -6,6 +6,7 @@
 #include "scene/json_document.h"
 #include "scene/json_node.h"
 #include "scene/scene_format.h"
+#include "scene/transparency.h"
 
 #include <glm/geometric.hpp>
 
@@ -234,13 +235,7 @@ ImageSettings readImage(const JsonNode& node) {
         image.size = {size->item(0).integer(1, kLargestImage), size->item(1).integer(1, kLargestImage)};
     }
     if (const auto background = node.find("background")) readBackground(*background, image);
-    if (const auto samples = node.find("samples")) {
-        const int count = samples->integer(1, 64);
-        if (count != 1 && count != 4) {
-            samples->failUnavailable(std::to_string(count) + " samples a pixel", "use 1 or 4");
-        }
-        image.supersample = count == 4 ? 2 : 1;
-    }
+    if (const auto samples = node.find("samples")) image.samples = samples->integer(1, kMostSamples);
     if (const auto exposure = node.find("exposure")) {
         image.exposure = static_cast<float>(exposure->number({.low = 1e-6, .high = 1e6}));
     }
@@ -258,23 +253,6 @@ Lighting readLighting(const JsonNode& node) {
     read("specular", lighting.specular, kShare);
     read("shininess", lighting.shininess, {.low = 1, .high = 10000});
     return lighting;
-}
-
-TransparencyMethod readTransparency(const JsonNode& node) {
-    node.object();
-    const std::string available = "use auto, 3-pass or 4-pass";
-    auto method = TransparencyMethod::automatic;
-    if (const auto named = node.find("method")) {
-        constexpr std::array kMethods{Word("auto"),   Word("3-pass"), Word("4-pass"),
-                                      Word("2-pass"), Word("peel"),   Word("exact")};
-        const std::size_t which = named->choice(kMethods);
-        if (which > 2) named->failUnavailable("the method " + inQuotes(kMethods[which]), available);
-        constexpr std::array kBuilt{TransparencyMethod::automatic, TransparencyMethod::threePass,
-                                    TransparencyMethod::fourPass};
-        method = kBuilt[which];
-    }
-    if (const auto layers = node.find("layers")) layers->failUnavailable("depth peeling", available);
-    return method;
 }
 
 void readDetail(const JsonNode& node, Scene& scene) {
@@ -296,6 +274,7 @@ void readQuality(const JsonNode& node, Scene& scene) {
         scene.quality.frameMilliseconds = frame->number(kPositive);
         scene.notes.push_back("quality: frame_ms is not acted on yet; a frame takes the time it needs.");
     }
+    if (const auto exact = node.find("exact_order")) scene.quality.exactOrder = exact->boolean();
 }
 
 void refuseUnavailable(const JsonNode& root) {

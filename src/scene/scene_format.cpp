@@ -28,9 +28,9 @@ constexpr std::array kCamera{Key("eye"), Key("target"), Key("up"), Key("fov"), K
 constexpr std::array kCameraKey{Key("at"), Key("eye"), Key("target")};
 constexpr std::array kImage{Key("size"), Key("background"), Key("samples"), Key("exposure")};
 constexpr std::array kLighting{Key("ambient"), Key("diffuse"), Key("specular"), Key("shininess")};
-constexpr std::array kTransparency{Key("method"), Key("layers")};
+constexpr std::array kTransparency{Key("method"), Key("layers"), Key("reproducible")};
 constexpr std::array kDetail{Key("pixels"), Key("error_pixels")};
-constexpr std::array kQuality{Key("frame_ms")};
+constexpr std::array kQuality{Key("frame_ms"), Key("exact_order")};
 
 constexpr std::array kFormat{
     FormatObject{"", kScene},

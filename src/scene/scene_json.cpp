@@ -1,5 +1,6 @@
 #include "scene/color.h"
 #include "scene/scene_file.h"
+#include "scene/transparency.h"
 
 #include <glm/vec2.hpp>
 #include <nlohmann/json.hpp>
@@ -76,16 +77,11 @@ Json camera(const Camera& camera) {
     return json;
 }
 
-const char* methodName(TransparencyMethod method) {
-    switch (method) {
-        case TransparencyMethod::threePass:
-            return "3-pass";
-        case TransparencyMethod::fourPass:
-            return "4-pass";
-        case TransparencyMethod::automatic:
-            break;
-    }
-    return "auto";
+Json transparencyJson(const Transparency& transparency) {
+    Json json{{"method", transparencyMethodName(transparency.method)}};
+    if (transparency.method == TransparencyMethod::peel) json["layers"] = transparency.layers;
+    json["reproducible"] = transparency.reproducible;
+    return json;
 }
 
 }  // namespace
@@ -103,17 +99,18 @@ std::string toJson(const Scene& scene, const std::filesystem::path& baseFolder) 
     json["image"] = {
         {"size", Json::array({scene.image.size.x, scene.image.size.y})},
         {"background", textFromBackdrop({scene.image.background, scene.image.backgroundOpacity})},
-        {"samples", scene.image.supersample * scene.image.supersample},
+        {"samples", scene.image.samples},
         {"exposure", shortest(scene.image.exposure)}};
     json["lighting"] = {{"ambient", shortest(scene.lighting.ambient)},
                         {"diffuse", shortest(scene.lighting.diffuse)},
                         {"specular", shortest(scene.lighting.specular)},
                         {"shininess", shortest(scene.lighting.shininess)}};
-    json["transparency"] = {{"method", methodName(scene.transparency)}};
+    json["transparency"] = transparencyJson(scene.transparency);
     const Quality& quality = scene.quality;
     if (quality.pixels) json["detail"]["pixels"] = *quality.pixels;
     if (quality.errorPixels) json["detail"]["error_pixels"] = *quality.errorPixels;
     if (quality.frameMilliseconds) json["quality"]["frame_ms"] = *quality.frameMilliseconds;
+    json["quality"]["exact_order"] = quality.exactOrder;
     return json.dump(2) + "\n";
 }
 

@@ -12,6 +12,7 @@ using Json = nlohmann::json;
 class Plan : public AppTest {};
 
 TEST_F(Plan, JsonNamesEveryPassWithItsReason) {
+    importOcean();
     writeScene();
     const Json plan = Json::parse(run({"plan", "scene.json", "--json"}).out);
     ASSERT_FALSE(plan.at("passes").empty());
@@ -25,6 +26,7 @@ TEST_F(Plan, JsonNamesEveryPassWithItsReason) {
 }
 
 TEST_F(Plan, TextSaysTheSameAsJson) {
+    importOcean();
     writeScene();
     const std::string text = run({"plan", "scene.json"}).out;
     const Json plan = Json::parse(run({"plan", "scene.json", "--json"}).out);
@@ -45,10 +47,25 @@ std::set<std::string> passesOf(const std::string& json) {
 }
 
 TEST_F(Plan, OnlyTheFourPassMethodNeedsBackFaceDepth) {
+    importOcean();
     writeScene(R"("transparency": {"method": "3-pass"},)", "three.json");
     writeScene(R"("transparency": {"method": "4-pass"},)", "four.json");
     EXPECT_FALSE(passesOf(run({"plan", "three.json", "--json"}).out).contains("back-face depth"));
     EXPECT_TRUE(passesOf(run({"plan", "four.json", "--json"}).out).contains("back-face depth"));
+}
+
+/// The scene begins at the time of the ocean's first key frame.
+TEST_F(Plan, SaysWhatIsReadAndExtractedAndHowLongThePassesTake) {
+    importOcean();
+    writeScene();
+    const Json plan = Json::parse(run({"plan", "scene.json", "--json"}).out);
+    EXPECT_EQ(plan.at("method"), "4-pass");
+    EXPECT_EQ(plan.at("work").size(), 4u) << "a key frame and three surfaces";
+    ASSERT_EQ(plan.at("work_left_out").size(), 1u);
+    EXPECT_EQ(plan.at("work_left_out")[0].at("work"), "second key frame");
+    for (const Json& pass : plan.at("passes")) EXPECT_GE(pass.at("milliseconds"), 0) << pass;
+    const std::string clock = plan.at("clock");
+    EXPECT_TRUE(clock == "GPU timer query" || clock == "serial wall clock") << clock;
 }
 
 class Bench : public AppTest {};

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace isoglass::test {
 
@@ -34,8 +35,57 @@ Ray pixelRay(const CameraView& camera, double x, double y) {
     return {camera.eye, glm::normalize(axes.forward + axes.right * right + axes.up * up)};
 }
 
+namespace {
+
+/// Light in front, and how much of what is behind comes through.
+struct Front {
+    glm::dvec3 emission{0};
+    double transmittance = 1;
+};
+
+/// `visible` are the semi-transparent fragments in front of what is opaque.
+Front sums(const std::vector<Fragment>& visible, bool cutAtBackFace) {
+    double limit = std::numeric_limits<double>::infinity();
+    for (const Fragment& fragment : visible) {
+        if (cutAtBackFace && fragment.backFace) limit = std::min(limit, fragment.distance);
+    }
+    Front front;
+    for (const Fragment& fragment : visible) {
+        front.transmittance *= 1 - fragment.opacity;
+        if (fragment.distance <= limit) front.emission += fragment.opacity * fragment.color;
+    }
+    return front;
+}
+
+Front inOrder(const std::vector<Fragment>& nearestFirst) {
+    Front front;
+    for (const Fragment& fragment : nearestFirst) {
+        front.emission += front.transmittance * fragment.opacity * fragment.color;
+        front.transmittance *= 1 - fragment.opacity;
+    }
+    return front;
+}
+
+Front composeFront(std::vector<Fragment> visible, TransparencyMethod method, int layers) {
+    using enum TransparencyMethod;
+    if (method == threePass || method == fourPass) return sums(visible, method == fourPass);
+    if (method == twoPass) {
+        // What is drawn later lies over what was drawn before.
+        std::sort(visible.begin(), visible.end(), [](const Fragment& a, const Fragment& b) {
+            return std::pair(a.draw, a.triangle) > std::pair(b.draw, b.triangle);
+        });
+        return inOrder(visible);
+    }
+    std::stable_sort(visible.begin(), visible.end(),
+                     [](const Fragment& a, const Fragment& b) { return a.distance < b.distance; });
+    if (method == peel) visible.resize(std::min(visible.size(), static_cast<std::size_t>(layers)));
+    return inOrder(visible);
+}
+
+}  // namespace
+
 glm::dvec3 compose(const std::vector<Fragment>& fragments, const glm::dvec3& background,
-                   TransparencyMethod method) {
+                   TransparencyMethod method, int layers) {
     double opaqueDistance = std::numeric_limits<double>::infinity();
     glm::dvec3 behind = background;
     for (const Fragment& fragment : fragments) {
@@ -43,20 +93,12 @@ glm::dvec3 compose(const std::vector<Fragment>& fragments, const glm::dvec3& bac
         opaqueDistance = fragment.distance;
         behind = fragment.color;
     }
-    double emissionLimit = opaqueDistance;
+    std::vector<Fragment> visible;
     for (const Fragment& fragment : fragments) {
-        if (method == TransparencyMethod::fourPass && fragment.opacity < 1 && fragment.backFace) {
-            emissionLimit = std::min(emissionLimit, fragment.distance);
-        }
+        if (fragment.opacity < 1 && fragment.distance <= opaqueDistance) visible.push_back(fragment);
     }
-    double transmittance = 1;
-    glm::dvec3 emission(0);
-    for (const Fragment& fragment : fragments) {
-        if (fragment.opacity >= 1 || fragment.distance > opaqueDistance) continue;
-        transmittance *= 1 - fragment.opacity;
-        if (fragment.distance <= emissionLimit) emission += fragment.opacity * fragment.color;
-    }
-    return behind * transmittance + emission;
+    const Front front = composeFront(std::move(visible), method, layers);
+    return behind * front.transmittance + front.emission;
 }
 
 glm::dvec3 shade(const glm::dvec3& color, const glm::dvec3& normal, const glm::dvec3& toEye,

@@ -19,6 +19,7 @@ struct Fragment {
     std::size_t draw;  ///< index of the surface
     glm::dvec3 color;  ///< after shading, linear
     double opacity;
+    std::size_t triangle = 0;  ///< index within the surface, the order in which it is drawn
 };
 
 /// A ray in double precision, `direction` of length 1.
@@ -42,10 +43,11 @@ std::optional<TriangleHit> intersectTriangle(const Ray& ray, const std::array<gl
 Ray pixelRay(const CameraView& camera, double x, double y);
 
 /// The closed forms of the methods: `threePass` B prod(1-a_i) + sum a_i c_i, `fourPass`
-/// with the sum over the fragments up to the nearest back face. Fragments in any order; those behind the
-/// nearest opaque one do not count.
+/// with the sum over the fragments up to the nearest back face, `exact` the fragments over each other by
+/// depth, `peel` the nearest `layers` of them, `twoPass` over each other in the order of draws and
+/// triangles. Fragments in any order; those behind the nearest opaque one do not count.
 glm::dvec3 compose(const std::vector<Fragment>& fragments, const glm::dvec3& background,
-                   TransparencyMethod method);
+                   TransparencyMethod method, int layers = 4);
 
 /// Color of a surface lit from the eye, by the formula of FrameDescription::lighting.
 glm::dvec3 shade(const glm::dvec3& color, const glm::dvec3& normal, const glm::dvec3& toEye,

@@ -19,6 +19,7 @@ struct WorldTriangle {
     std::array<glm::dvec3, 3> normal;
     std::array<std::uint32_t, 3> vertex;
     std::size_t surface;
+    std::size_t index;  ///< of the triangle within the surface
     bool mirrored;
     glm::ivec2 low, high;  ///< pixels, both ends included
 };
@@ -55,6 +56,7 @@ std::vector<WorldTriangle> worldTriangles(const CameraView& camera,
         for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
             WorldTriangle triangle;
             triangle.surface = s;
+            triangle.index = t / 3;
             triangle.mirrored = glm::determinant(glm::dmat3(toWorld)) < 0;
             for (std::size_t i = 0; i < 3; ++i) {
                 const std::uint32_t v = mesh.triangles[t + i];
@@ -103,9 +105,10 @@ class RowTracer {
             glm::dvec3 normal(0);
             for (int i = 0; i < 3; ++i) normal += hit->barycentric[i] * triangle->normal[i];
             const SurfaceDraw& draw = surfaces_[triangle->surface].draw;
-            traced.push_back({{hit->distance, hit->backFace != triangle->mirrored, triangle->surface,
-                               shade(draw.color, normal, -ray.direction, frame_.lighting), draw.opacity},
-                              triangle->vertex});
+            traced.push_back(
+                {{hit->distance, hit->backFace != triangle->mirrored, triangle->surface,
+                  shade(draw.color, normal, -ray.direction, frame_.lighting), draw.opacity, triangle->index},
+                 triangle->vertex});
         }
         std::ranges::stable_sort(traced, {}, [](const auto& t) { return t.fragment.distance; });
         std::vector<Fragment> fragments;
@@ -167,9 +170,8 @@ TruthImage renderTruth(const FrameDescription& frame, const std::vector<TruthSur
 }
 
 Composer composerOf(const FrameDescription& frame) {
-    return [background = glm::dvec3(frame.background), method = frame.method](const auto& fragments) {
-        return compose(fragments, background, method);
-    };
+    return [background = glm::dvec3(frame.background), method = frame.method, layers = frame.layers](
+               const auto& fragments) { return compose(fragments, background, method, layers); };
 }
 
 }  // namespace isoglass::test

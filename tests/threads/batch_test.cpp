@@ -48,7 +48,7 @@ class BatchTest : public testing::Test {
         scene_.camera.path = {{0, {.eye = {3, 2, 2.5}, .target = {0, 0, 0}}},
                               {0.4, {.eye = {2, 3, 2.5}, .target = {0, 0, 0}}}};
         scene_.image.size = {64, 48};
-        scene_.transparency = TransparencyMethod::fourPass;
+        scene_.transparency.method = TransparencyMethod::fourPass;
     }
 
     std::vector<RenderedFrame> render(FrameRange range, SceneExtractor::Options options = {}) {

@@ -41,7 +41,7 @@ void RenderLoop::draw(std::stop_token stop, Renderer& renderer) {
         } else if (const auto newest = inbox_.views.tryTake()) {
             view = *newest;
         }
-        renderer.render(describe(view));
+        renderer.renderIfChanged(describe(view));
         if (!hooks_.present({count++, shown_ ? &*shown_ : nullptr}, renderer)) return;
     }
 }
@@ -101,9 +101,13 @@ FrameDescription describeFrame(const Scene& scene, const RenderView& view) {
     frame.backgroundOpacity = scene.image.backgroundOpacity;
     frame.exposure = scene.image.exposure;
     frame.lighting = scene.lighting;
-    frame.method = scene.transparency;
-    frame.supersample = scene.image.supersample;
+    frame.method = scene.transparency.method;
+    frame.layers = scene.transparency.layers;
+    frame.reproducible = scene.transparency.reproducible;
+    frame.exactWanted = scene.quality.exactOrder;
+    frame.samples = scene.image.samples;
     frame.wireframe = view.wireframe;
+    frame.keepLinear = false;
     return frame;
 }
 

@@ -24,10 +24,20 @@ SceneExtractor::SceneExtractor(const Scene& scene, Options options) : scene_(sce
     cache_ = std::make_unique<KeyFrameCache>(std::move(files), options_.memoryBytes);
 }
 
-TimedField SceneExtractor::fieldAt(std::size_t volume, const TimeSample& sample) {
+std::vector<PlannedWork> SceneExtractor::planAt(std::size_t volume, const TimeSample& sample) const {
+    VolumeState state;
+    state.onKeyFrame = sample.fraction == 0;
+    for (const Surface& surface : scene_.volumes[volume].surfaces) {
+        state.surfaceOpacities.push_back(surface.opacity);
+    }
+    return planVolume(state);
+}
+
+TimedField SceneExtractor::fieldAt(std::size_t volume, const TimeSample& sample,
+                                   const std::vector<PlannedWork>& work) {
     TimedField field;
-    field.a = cache_->get({volume, sample.frameA});
-    if (sample.fraction > 0) field.b = cache_->get({volume, sample.frameB});
+    if (isNeeded(work, WorkKind::firstKeyFrame)) field.a = cache_->get({volume, sample.frameA});
+    if (isNeeded(work, WorkKind::secondKeyFrame)) field.b = cache_->get({volume, sample.frameB});
     field.fraction = static_cast<float>(sample.fraction);
     return field;
 }
@@ -42,8 +52,9 @@ std::vector<FrameKey> SceneExtractor::framesAhead(double position) const {
         for (std::size_t volume = 0; volume < series_.size(); ++volume) {
             const TimeSample sample =
                 locate(series_[volume].file->description().time, series_[volume].timeAt(at));
-            add({volume, sample.frameA});
-            add({volume, sample.frameB});
+            const std::vector<PlannedWork> work = planAt(volume, sample);
+            if (isNeeded(work, WorkKind::firstKeyFrame)) add({volume, sample.frameA});
+            if (isNeeded(work, WorkKind::secondKeyFrame)) add({volume, sample.frameB});
         }
     }
     return keys;
@@ -58,12 +69,18 @@ SceneMeshes SceneExtractor::extract(double position, const CameraPose& camera, i
         const double time = series_[v].timeAt(position);
         result.axisTimes.push_back(time);
         result.times.push_back(locate(series.time, time));
-        const TimedField field = fieldAt(v, result.times.back());
+        result.work.push_back(planAt(v, result.times.back()));
+        const std::vector<PlannedWork>& work = result.work.back();
+        const TimedField field = fieldAt(v, result.times.back(), work);
         View view;
         view.eye = glm::dvec3(glm::inverse(worldFromSeries(volume.place)) * glm::dvec4(camera.eye, 1.0));
         view.pixelsPerUnit = imageHeight / (2 * std::tan(scene_.camera.fovDegrees * M_PI / 360));
         for (std::size_t s = 0; s < volume.surfaces.size(); ++s) {
             const Surface& surface = volume.surfaces[s];
+            if (!isNeeded(work, WorkKind::extraction, s)) {
+                result.surfaces.push_back({v, s, std::make_shared<const SurfaceMesh>(), {}});
+                continue;
+            }
             Extraction extraction = extractSurface(series.lattice, field,
                                                    {.iso = static_cast<float>(surface.iso),
                                                     .insideIsBelow = surface.inside == Inside::below,

@@ -3,6 +3,7 @@
 #include "mesh/surface_mesh.h"
 #include "pipeline/key_frame_cache.h"
 #include "pipeline/played_series.h"
+#include "plan/work_plan.h"
 #include "scene/scene.h"
 #include "surface/extract.h"
 #include "volume/time_axis.h"
@@ -17,17 +18,18 @@ namespace isoglass {
 
 /// One surface of the scene at one moment.
 struct ExtractedSurface {
-    std::size_t volume = 0;   ///< index into `Scene::volumes`
-    std::size_t surface = 0;  ///< index into its `surfaces`
-    std::shared_ptr<const SurfaceMesh> mesh;
+    std::size_t volume = 0;                   ///< index into `Scene::volumes`
+    std::size_t surface = 0;                  ///< index into its `surfaces`
+    std::shared_ptr<const SurfaceMesh> mesh;  ///< empty where the plan leaves its extraction out
     ExtractStats stats;
 };
 
 /// All surfaces of the scene at one moment, in the order of the scene. Always whole.
 struct SceneMeshes {
     std::vector<ExtractedSurface> surfaces;
-    std::vector<TimeSample> times;  ///< one a volume
-    std::vector<double> axisTimes;  ///< one a volume, in its series' own units
+    std::vector<TimeSample> times;               ///< one a volume
+    std::vector<double> axisTimes;               ///< one a volume, in its series' own units
+    std::vector<std::vector<PlannedWork>> work;  ///< one a volume: what was done for it, and why
 };
 
 /// Turns moments of a scene into meshes: reads, interpolates in time, extracts.
@@ -53,7 +55,8 @@ class SceneExtractor {
     const KeyFrameCache& cache() const { return *cache_; }
 
   private:
-    TimedField fieldAt(std::size_t volume, const TimeSample& sample);
+    TimedField fieldAt(std::size_t volume, const TimeSample& sample, const std::vector<PlannedWork>& work);
+    std::vector<PlannedWork> planAt(std::size_t volume, const TimeSample& sample) const;
     std::vector<FrameKey> framesAhead(double position) const;
 
     Scene scene_;

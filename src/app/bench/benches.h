@@ -8,7 +8,7 @@ namespace isoglass {
 
 /// Interpolation in time and extraction of analytic fields at 64^3, 128^3 and 256^3 samples.
 void registerExtraction(int threads, int repetitions);
-/// Every pass of every method, three surfaces at 512^2 and 1024^2 pixels.
+/// Whole frames and every pass of every method, three surfaces at 512^2 and 1024^2 pixels.
 void registerPasses(int repetitions);
 ///@}
 

@@ -36,11 +36,16 @@ void expectGlHas(const PipelineState& state) {
     for (GLuint i = 0; i < PipelineState::kMaxTargets; ++i) {
         EXPECT_EQ(glIsEnabledi(GL_BLEND, i), state.blend[i] != Blend::replace) << "target " << i;
         if (state.blend[i] == Blend::replace) continue;
-        GLint source = 0, destination = 0;
-        glGetIntegeri_v(GL_BLEND_SRC_RGB, i, &source);
-        glGetIntegeri_v(GL_BLEND_DST_RGB, i, &destination);
-        EXPECT_EQ(source, state.blend[i] == Blend::add ? GL_ONE : GL_ZERO) << "target " << i;
-        EXPECT_EQ(destination, state.blend[i] == Blend::add ? GL_ONE : GL_SRC_COLOR) << "target " << i;
+        const bool add = state.blend[i] == Blend::add;
+        const auto has = [i](GLenum what, GLint factor) {
+            GLint value = 0;
+            glGetIntegeri_v(what, i, &value);
+            EXPECT_EQ(value, factor) << "target " << i;
+        };
+        has(GL_BLEND_SRC_RGB, state.blend[i] == Blend::under ? GL_DST_ALPHA : GL_ONE);
+        has(GL_BLEND_DST_RGB, state.blend[i] == Blend::over ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE);
+        has(GL_BLEND_SRC_ALPHA, add ? GL_ONE : GL_ZERO);
+        has(GL_BLEND_DST_ALPHA, add ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
     }
     GLboolean mask[4];
     glGetBooleanv(GL_COLOR_WRITEMASK, mask);
@@ -57,7 +62,7 @@ PipelineState randomState(std::mt19937& random) {
     state.depthWrite = pick(2) != 0;
     state.culling = static_cast<Culling>(pick(3));
     state.frontIsClockwise = pick(2) != 0;
-    for (Blend& blend : state.blend) blend = static_cast<Blend>(pick(3));
+    for (Blend& blend : state.blend) blend = static_cast<Blend>(pick(5));
     state.colorWrite = pick(2) != 0;
     state.wireframe = pick(2) != 0;
     return state;

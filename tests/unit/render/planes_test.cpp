@@ -9,6 +9,8 @@ namespace {
 
 constexpr TransparencyMethod kThreePass = TransparencyMethod::threePass;
 constexpr TransparencyMethod kFourPass = TransparencyMethod::fourPass;
+constexpr TransparencyMethod kEveryMethod[] = {TransparencyMethod::twoPass, kThreePass, kFourPass,
+                                               TransparencyMethod::peel, TransparencyMethod::exact};
 
 /// Squares of one size that fill the view, highest first: the fragments of every pixel are known.
 struct Layer {
@@ -74,12 +76,10 @@ class Planes : public RenderTest {
     }
 };
 
-TEST_F(Planes, StacksGiveTheClosedFormOfThreePass) {
-    for (const int k : {1, 2, 3, 5, 8}) expectClosedForm(stack(k), kThreePass);
-}
-
-TEST_F(Planes, StacksGiveTheClosedFormOfFourPass) {
-    for (const int k : {1, 2, 3, 5, 8}) expectClosedForm(stack(k), kFourPass);
+TEST_F(Planes, StacksGiveTheClosedFormOfEveryMethod) {
+    for (const TransparencyMethod method : kEveryMethod) {
+        for (const int k : {1, 2, 3, 5, 8, 9, 17, 20}) expectClosedForm(stack(k), method);
+    }
 }
 
 TEST_F(Planes, TheBackFaceThatLimitsEmissionEmitsItself) {
@@ -90,7 +90,7 @@ TEST_F(Planes, TheBackFaceThatLimitsEmissionEmitsItself) {
 }
 
 TEST_F(Planes, AnOpaqueLayerHidesWhatIsBehindAndIsAttenuatedByWhatIsBefore) {
-    for (const TransparencyMethod method : {kThreePass, kFourPass}) {
+    for (const TransparencyMethod method : kEveryMethod) {
         for (const std::size_t place : {0u, 2u, 5u}) {
             std::vector<Layer> layers = stack(5);
             const float z = 1.05f - 0.1f * static_cast<float>(place);
@@ -117,21 +117,6 @@ TEST_F(Planes, AnInvisibleSurfaceNeitherDimsNorHides) {
     const LinearImage with = renderLinear(frameOf(layers, kFourPass));
     layers.erase(layers.begin());
     EXPECT_EQ(with.pixels, renderLinear(frameOf(layers, kFourPass)).pixels);
-}
-
-TEST_F(Planes, FusedTargetsGiveWhatSeparatePassesGive) {
-    FrameDescription frame = frameOf(stack(8), kThreePass);
-    frame.lighting = {};
-    const LinearImage fused = renderLinear(frame);
-    EXPECT_TRUE(renderer_.plan().runs(PassKind::attenuationAndEmission));
-    frame.separatePasses = true;
-    const LinearImage separate = renderLinear(frame);
-    EXPECT_FALSE(renderer_.plan().runs(PassKind::attenuationAndEmission));
-    // The two fragment shaders may round the shading differently by a few units in the last place:
-    // 8 layers of values up to 1.15.
-    for (std::size_t i = 0; i < fused.pixels.size(); ++i) {
-        ASSERT_LT(largestDifference(fused.pixels[i], separate.pixels[i]), 8 * 1.15 * 0x1p-20);
-    }
 }
 
 /// Two orders of n products or sums each round n - 1 times, by at most 2^-24 of the partial result, which

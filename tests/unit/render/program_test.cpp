@@ -42,9 +42,34 @@ TEST_F(ProgramTest, ALinkErrorNamesTheProgram) {
 }
 
 TEST_F(ProgramTest, ReflectionTellsSamplersAndOutputs) {
-    const gl::Program program("full_screen.vert", "resolve_composed.frag");
-    EXPECT_EQ(program.samplerUnits(), (std::vector<int>{0, 2, 3}));
-    EXPECT_EQ(program.outputLocations(), (std::vector<int>{0, 1}));
+    const gl::Program program("full_screen.vert", "resolve_composed.frag", {"OPAQUE_BEHIND"});
+    EXPECT_EQ(program.samplerUnits(), (std::vector<int>{0, 2}));
+    EXPECT_EQ(program.outputLocations(), std::vector<int>{0});
+    EXPECT_EQ(gl::Program("full_screen.vert", "resolve_composed.frag").samplerUnits(), std::vector<int>{2});
+}
+
+TEST_F(ProgramTest, ReflectionTellsImagesAndStorage) {
+    const gl::Program lists("surface.vert", "fragment_lists.frag");
+    EXPECT_EQ(lists.imageUnits(), std::vector<int>{0});
+    EXPECT_EQ(lists.storageBindings(), std::vector<int>{0});
+    EXPECT_TRUE(lists.samplerUnits().empty());
+}
+
+/// The block of the fragment lists is that of its mirror.
+TEST_F(ProgramTest, NodesOfTheFragmentListsAreThoseOfTheMirror) {
+    const gl::Program program("surface.vert", "fragment_lists.frag");
+    const auto value = [&](const char* variable, GLenum what) {
+        const GLuint index = glGetProgramResourceIndex(program.name(), GL_BUFFER_VARIABLE, variable);
+        EXPECT_NE(index, GL_INVALID_INDEX) << variable;
+        GLint result = -1;
+        glGetProgramResourceiv(program.name(), GL_BUFFER_VARIABLE, index, 1, &what, 1, nullptr, &result);
+        return result;
+    };
+    EXPECT_EQ(value("nodeCount", GL_OFFSET), 0);
+    EXPECT_EQ(value("nodeCapacity", GL_OFFSET), 4);
+    EXPECT_EQ(value("nodes[0].red", GL_OFFSET), static_cast<GLint>(FragmentLists::kHeaderBytes));
+    EXPECT_EQ(value("nodes[0].red", GL_TOP_LEVEL_ARRAY_STRIDE),
+              static_cast<GLint>(FragmentLists::kNodeBytes));
 }
 
 /// What the driver says of a member of a uniform block.
@@ -71,7 +96,7 @@ void expectBlock(const gl::Program& program, const char* block, unsigned binding
 }
 
 TEST_F(ProgramTest, UniformLayoutsAreThoseOfTheMirrors) {
-    const gl::Program surface("surface.vert", "emission.frag");
+    const gl::Program surface("surface.vert", "attenuation_and_emission.frag");
     expectBlock(surface, "Draw", DrawUniforms::kBinding, sizeof(DrawUniforms));
     expectOffset(surface, "clipFromMesh", offsetof(DrawUniforms, clipFromMesh));
     expectOffset(surface, "eyeFromMesh", offsetof(DrawUniforms, eyeFromMesh));
@@ -85,9 +110,12 @@ TEST_F(ProgramTest, UniformLayoutsAreThoseOfTheMirrors) {
     expectOffset(surface, "diffuse", offsetof(FrameUniforms, diffuse));
     expectOffset(surface, "specular", offsetof(FrameUniforms, specular));
     expectOffset(surface, "shininess", offsetof(FrameUniforms, shininess));
-    const gl::Program resolve("full_screen.vert", "resolve_opaque.frag");
+    const gl::Program resolve("full_screen.vert", "resolve_lists.frag");
     expectOffset(resolve, "exposure", offsetof(FrameUniforms, exposure));
-    expectOffset(resolve, "supersample", offsetof(FrameUniforms, supersample));
+    expectOffset(resolve, "background", offsetof(FrameUniforms, background));
+    expectOffset(resolve, "layerLimit", offsetof(FrameUniforms, layerLimit));
+    const gl::Program present("full_screen.vert", "present.frag");
+    expectOffset(present, "accumulationShare", offsetof(FrameUniforms, accumulationShare));
 }
 
 }  // namespace

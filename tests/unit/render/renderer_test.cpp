@@ -22,8 +22,9 @@ class RendererTest : public RenderTest {
 
 TEST_F(RendererTest, SaysWhichPassesRan) {
     renderer_.render(frame_);
-    EXPECT_EQ(renderer_.plan().method, TransparencyMethod::fourPass);
-    EXPECT_EQ(renderer_.plan().passes.size(), 5u);
+    EXPECT_EQ(renderer_.plan().method, TransparencyMethod::twoPass)
+        << "the only semi-transparent one is flat";
+    EXPECT_EQ(renderer_.plan().passes.size(), 4u);
 }
 
 TEST_F(RendererTest, TimesEachPassOnRequestAndSaysHow) {
@@ -31,11 +32,11 @@ TEST_F(RendererTest, TimesEachPassOnRequestAndSaysHow) {
     EXPECT_TRUE(renderer_.timings().empty());
     renderer_.setTiming(true);
     renderer_.render(frame_);
-    ASSERT_EQ(renderer_.timings().size(), 5u);
+    ASSERT_EQ(renderer_.timings().size(), 4u);
     const auto how = context_.isSoftware() ? PassTiming::How::serialWallClock : PassTiming::How::gpuTimer;
-    for (std::size_t i = 0; i < 5; ++i) {
+    for (std::size_t i = 0; i < 4; ++i) {
         const PassTiming& timing = renderer_.timings()[i];
-        EXPECT_EQ(timing.label, passName(renderer_.plan().passes[i].kind));
+        EXPECT_EQ(timing.label, passLabel(renderer_.plan().passes[i]));
         EXPECT_EQ(timing.how, how);
         EXPECT_TRUE(std::isfinite(timing.milliseconds) && timing.milliseconds >= 0);
     }
@@ -53,6 +54,30 @@ TEST_F(RendererTest, TheSameFrameGivesTheSamePixels) {
     EXPECT_EQ(renderLinear(frame_).pixels, first.pixels);
 }
 
+TEST_F(RendererTest, AFrameThatIsShownAlreadyIsNotDrawnAgain) {
+    EXPECT_TRUE(renderer_.renderIfChanged(frame_));
+    EXPECT_FALSE(renderer_.renderIfChanged(frame_));
+    EXPECT_TRUE(renderer_.plan().passes.empty());
+    FrameDescription other = frame_;
+    other.camera.eye.z += 1e-9;
+    EXPECT_TRUE(renderer_.renderIfChanged(other));
+    EXPECT_FALSE(renderer_.plan().passes.empty());
+    other.camera.size = {0, 0};
+    EXPECT_THROW(renderer_.renderIfChanged(other), Error);
+    EXPECT_TRUE(renderer_.renderIfChanged(frame_)) << "after a failure nothing is shown";
+}
+
+TEST_F(RendererTest, TheLinearImageIsReadWhereItWasKept) {
+    frame_.keepLinear = false;
+    renderer_.render(frame_);
+    const Image image = renderer_.readSrgb();
+    EXPECT_THROW(renderer_.readLinear(), std::logic_error);
+    frame_.keepLinear = true;
+    renderer_.render(frame_);
+    EXPECT_NO_THROW(renderer_.readLinear());
+    EXPECT_EQ(renderer_.readSrgb().pixels, image.pixels);
+}
+
 TEST_F(RendererTest, ReadingBeforeTheFirstFrameIsRefused) {
     EXPECT_THROW(renderer_.readLinear(), std::logic_error);
     EXPECT_THROW(renderer_.readSrgb(), std::logic_error);
@@ -65,10 +90,15 @@ TEST_F(RendererTest, SizesThatCannotBeDrawnAreErrors) {
         frame.camera.size = size;
         EXPECT_THROW(renderer_.render(frame), Error) << size.x << "x" << size.y;
     }
-    for (const int supersample : {0, 3}) {
+    for (const int samples : {0, 65}) {
         FrameDescription frame = frame_;
-        frame.supersample = supersample;
-        EXPECT_THROW(renderer_.render(frame), Error) << supersample;
+        frame.samples = samples;
+        EXPECT_THROW(renderer_.render(frame), Error) << samples;
+    }
+    for (const int layers : {0, 257}) {
+        FrameDescription frame = frame_;
+        frame.layers = layers;
+        EXPECT_THROW(renderer_.render(frame), Error) << layers;
     }
     EXPECT_NO_THROW(renderer_.render(frame_));
 }

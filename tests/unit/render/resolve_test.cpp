@@ -7,13 +7,14 @@ using Resolve = RenderTest;
 
 TEST_F(Resolve, AnEmptyFrameIsTheBackgroundExactly) {
     const glm::vec3 background(0.1f, 0.7f, 3.3f);
-    for (const int supersample : {1, 2}) {
-        const LinearImage image = renderLinear(
-            {.camera = fromAbove(1, {5, 3}), .background = background, .supersample = supersample});
+    for (const int samples : {1, 4}) {
+        const LinearImage image =
+            renderLinear({.camera = fromAbove(1, {5, 3}), .background = background, .samples = samples});
         ASSERT_EQ(image.size, glm::ivec2(5, 3));
         EXPECT_EQ(image.pixels, std::vector<glm::vec3>(15, background));
     }
     EXPECT_EQ(renderer_.plan().passes.size(), 2u);
+    EXPECT_FALSE(renderer_.plan().runs(PassKind::opaque));
 }
 
 double srgbCurve(double linear) {
@@ -66,11 +67,11 @@ TEST_F(Resolve, SupersamplingAveragesInLinearLight) {
                            .background = {0.2f, 0.25f, 0.3f}};
     show(frame, {{sphere({0, 0, 0}, 0.8f, 12), {.color = {0.9f, 0.2f, 0.1f}, .opacity = 0.4f}},
                  {sphere({0.3f, 0, 0}, 0.5f, 12), {.color = {0.1f, 0.9f, 0.1f}}}});
-    frame.supersample = 2;
+    frame.samples = 4;
     const LinearImage averaged = renderLinear(frame);
     const DepthImage depth = renderer_.readDepth();
     EXPECT_EQ(depth.size, glm::ivec2(48, 36));
-    frame.supersample = 1;
+    frame.samples = 1;
     frame.camera.size *= 2;
     const LinearImage samples = renderLinear(frame);
     for (int y = 0; y < 18; ++y) {

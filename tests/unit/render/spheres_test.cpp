@@ -91,11 +91,15 @@ TEST_P(Spheres, PixelsAreThoseOfTheClosedFormAwayFromSilhouettes) {
     EXPECT_EQ(deepest, 8);
 }
 
+std::string testName(const testing::TestParamInfo<TransparencyMethod>& method) {
+    constexpr std::array kNames{"automatic", "twoPass", "threePass", "fourPass", "peel", "exact"};
+    return kNames[static_cast<std::size_t>(method.param)];
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, Spheres,
-                         testing::Values(TransparencyMethod::threePass, TransparencyMethod::fourPass),
-                         [](const auto& method) {
-                             return method.param == TransparencyMethod::threePass ? "threePass" : "fourPass";
-                         });
+                         testing::Values(TransparencyMethod::threePass, TransparencyMethod::fourPass,
+                                         TransparencyMethod::peel, TransparencyMethod::exact),
+                         testName);
 
 }  // namespace
 }  // namespace isoglass::test

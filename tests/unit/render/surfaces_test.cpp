@@ -17,13 +17,14 @@ class Surfaces : public RenderTest {
                             .background = kBackground,
                             .lighting = kUnlit};
 
-    /// Compares with rays against every triangle, for both methods. 1e-4: colors are float, eight
+    /// Compares with rays against every triangle, for every method. 1e-4: colors are float, eight
     /// fragments with a few operations of 2^-24 each, and below 4.
     void expectGroundTruth(const std::vector<TruthSurface>& surfaces, const std::string& name) {
         frame_.draws.clear();
         show(frame_, surfaces);
         for (const TransparencyMethod method :
-             {TransparencyMethod::threePass, TransparencyMethod::fourPass}) {
+             {TransparencyMethod::twoPass, TransparencyMethod::threePass, TransparencyMethod::fourPass,
+              TransparencyMethod::peel, TransparencyMethod::exact}) {
             frame_.method = method;
             const TruthImage truth = renderTruth(frame_, surfaces, composerOf(frame_));
             // Only silhouettes may change, each by at most its fragments' colors.

@@ -7,7 +7,9 @@ namespace {
 
 using TransparentBackground = RenderTest;
 
-constexpr std::array kMethods{TransparencyMethod::threePass, TransparencyMethod::fourPass};
+constexpr std::array kMethods{TransparencyMethod::twoPass, TransparencyMethod::threePass,
+                              TransparencyMethod::fourPass, TransparencyMethod::peel,
+                              TransparencyMethod::exact};
 
 /// An opaque sphere inside a semi-transparent one, before nothing.
 std::vector<TruthSurface> nestedSpheres() {
@@ -15,8 +17,8 @@ std::vector<TruthSurface> nestedSpheres() {
             {sphere({0.3f, 0, 0}, 0.4f, 12), {.color = {0.1f, 0.9f, 0.1f}}}};
 }
 
-FrameDescription frameOfSpheres(int supersample) {
-    return {.camera = {.eye = {3, 2, 2.5}, .fovDegrees = 34, .size = {24, 18}}, .supersample = supersample};
+FrameDescription frameOfSpheres(int samples) {
+    return {.camera = {.eye = {3, 2, 2.5}, .fovDegrees = 34, .size = {24, 18}}, .samples = samples};
 }
 
 TEST_F(TransparentBackground, AnEmptyFrameIsTheBackgroundWithItsAlpha) {
@@ -59,9 +61,9 @@ TEST_F(TransparentBackground, ASemiTransparentSurfaceHasItsOpacityAndItsOwnColor
 /// Laying the picture upon a color gives what rendering before that color gives, edges included.
 TEST_F(TransparentBackground, LaidUponAColorItIsThePictureBeforeThatColor) {
     const glm::vec3 behind(0.2f, 0.6f, 0.9f);
-    for (const int supersample : {1, 2}) {
+    for (const int samples : {1, 4}) {
         for (const TransparencyMethod method : kMethods) {
-            FrameDescription frame = frameOfSpheres(supersample);
+            FrameDescription frame = frameOfSpheres(samples);
             show(frame, nestedSpheres());
             frame.method = method;
             frame.background = behind;
@@ -81,14 +83,14 @@ TEST_F(TransparentBackground, LaidUponAColorItIsThePictureBeforeThatColor) {
             }
             // Beside the spheres, through the front and back of one of opacity 0.4, on the opaque one.
             EXPECT_TRUE(alphas.contains(0) && alphas.contains(163) && alphas.contains(255));
-            EXPECT_EQ(alphas.size() > 4, supersample == 2) << "edges cover parts of pixels";
+            EXPECT_EQ(alphas.size() > 4, samples == 4) << "edges cover parts of pixels";
         }
     }
 }
 
 /// The straight color of an edge pixel lies between those of the surfaces there: no dark fringe.
 TEST_F(TransparentBackground, EdgesHaveNoDarkFringe) {
-    FrameDescription frame = frameOfSpheres(2);
+    FrameDescription frame = frameOfSpheres(4);
     frame.lighting = kUnlit;
     show(frame, {{sphere({0, 0, 0}, 0.8f, 24), {.color = {1, 1, 1}}}});
     frame.backgroundOpacity = 0;

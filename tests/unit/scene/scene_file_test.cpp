@@ -29,9 +29,9 @@ constexpr const char* kFull = R"({
                "path": [{"at": 1, "eye": [5, 5, 5]}, {"at": 2.5, "target": [0, 0, 0.1]}]},
     "image": {"size": [640, 480], "background": "#ffffff", "samples": 4, "exposure": 1.1},
     "lighting": {"ambient": 0.1, "diffuse": 0.8, "specular": 0.2, "shininess": 20},
-    "transparency": {"method": "4-pass"},
+    "transparency": {"method": "peel", "layers": 7, "reproducible": true},
     "detail": {"error_pixels": 0.5},
-    "quality": {"frame_ms": 40},
+    "quality": {"frame_ms": 40, "exact_order": true},
     "clip": []
 })";
 
@@ -69,10 +69,10 @@ TEST(SceneFile, EveryKeyIsRead) {
     ASSERT_EQ(scene.camera.path.size(), 2u);
     EXPECT_EQ(scene.camera.path[0], (CameraKey{1, {{5, 5, 5}, {1, 1, 1}}}));
     EXPECT_EQ(scene.camera.path[1], (CameraKey{2.5, {{9, 8, 7}, {0, 0, 0.1}}}));
-    EXPECT_EQ(scene.image, (ImageSettings{{640, 480}, LinearColor(1), 1.1f, 2}));
+    EXPECT_EQ(scene.image, (ImageSettings{{640, 480}, LinearColor(1), 1.1f, 4}));
     EXPECT_EQ(scene.lighting, (Lighting{0.1f, 0.8f, 0.2f, 20}));
-    EXPECT_EQ(scene.transparency, TransparencyMethod::fourPass);
-    EXPECT_EQ(scene.quality, (Quality{std::nullopt, 0.5, 40}));
+    EXPECT_EQ(scene.transparency, (Transparency{TransparencyMethod::peel, 7, true}));
+    EXPECT_EQ(scene.quality, (Quality{std::nullopt, 0.5, 40, true}));
 }
 
 TEST(SceneFile, WhatChangesNothingIsNoted) {
