@@ -102,8 +102,10 @@ std::uint64_t addressSpace() {
 }
 
 void confine(int socket, std::uint64_t processorSeconds) {
-    // A Ctrl-C goes to both processes; it is the parent that decides.
+    // A Ctrl-C goes to both processes; it is the parent that decides, and that cleans up.
     std::signal(SIGINT, SIG_IGN);
+    std::signal(SIGTERM, SIG_DFL);
+    std::signal(SIGHUP, SIG_DFL);
     const int nowhere = ::open("/dev/null", O_RDWR);
     for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, standard);
     const auto kept = static_cast<unsigned>(socket);
