@@ -8,7 +8,9 @@
 #include "scene/transparency.h"
 
 #include <CLI/CLI.hpp>
+#include <glm/geometric.hpp>
 
+#include <cmath>
 #include <exception>
 #include <functional>
 #include <iostream>
@@ -130,9 +132,38 @@ void addView(CLI::App& app, const CommonOptions& common, std::function<void()>& 
     verb->callback([command, &common, &run] { run = [command, &common] { runView(*command, common); }; });
 }
 
+void addMeshView(CLI::App& verb, const std::shared_ptr<MeshCommand>& command) {
+    CLI::Option* eye = verb.add_option_function<std::vector<double>>(
+        "--eye",
+        [command](const std::vector<double>& at) {
+            command->eye = glm::dvec3(at[0], at[1], at[2]);
+            if (!std::isfinite(glm::dot(*command->eye, *command->eye)))
+                throw CLI::ValidationError("--eye: a coordinate is not finite");
+        },
+        "Where the mesh will be seen from, in any direction: x,y,z in the series' coordinates");
+    eye->delimiter(',')->expected(3);
+    CLI::Option* pixels = verb.add_option("--pixels", command->cellPixels,
+                                          "With --eye: size of a cell on the screen, in pixels");
+    pixels->check(CLI::PositiveNumber);
+    CLI::Option* size = verb.add_option_function<std::string>(
+        "--size",
+        [command](const std::string& text) {
+            command->size = imageSize(text);
+            if (command->size.x <= 0 || command->size.y <= 0)
+                throw CLI::ValidationError("--size: an image has at least one pixel");
+        },
+        "With --eye: size of the image, WxH pixels");
+    CLI::Option* fov = verb.add_option("--fov", command->fovDegrees,
+                                       "With --eye: vertical angle of view in degrees; default: 30");
+    fov->check(CLI::Range(1e-3, 179.0));
+    eye->needs(pixels)->needs(size);
+    for (CLI::Option* option : {pixels, size, fov}) option->needs(eye);
+}
+
 void addMesh(CLI::App& app, const CommonOptions& common, std::function<void()>& run) {
     auto command = std::make_shared<MeshCommand>();
-    CLI::App* verb = app.add_subcommand("mesh", "Write one iso-surface at full resolution to a mesh file");
+    CLI::App* verb = app.add_subcommand(
+        "mesh", "Write one iso-surface to a mesh file, at full resolution or as fine as a view needs");
     verb->add_option("SERIES", command->series, "Series of IsoGlass (.vdb)")->required();
     verb->add_option("--iso", command->iso, "Iso-value")->required();
     CLI::Option* time = verb->add_option("--time", command->time,
@@ -148,6 +179,7 @@ void addMesh(CLI::App& app, const CommonOptions& common, std::function<void()>& 
         ->check(CLI::Range(1, 1'000'000))
         ->needs(series);
     verb->add_flag("--below", command->insideIsBelow, "The inside is where the field is below the iso-value");
+    addMeshView(*verb, command);
     verb->callback([command, &common, &run] { run = [command, &common] { runMesh(*command, common); }; });
 }
 

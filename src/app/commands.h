@@ -69,6 +69,10 @@ struct MeshCommand {
     bool insideIsBelow = false;
     bool wholeSeries = false;  ///< measures the surface over time, see `runMeshSeries`
     int steps = 1;             ///< moments from one key frame to the next that are measured
+    std::optional<glm::dvec3> eye;  ///< in the coordinates of the series; full resolution where not given
+    double cellPixels = 0;          ///< with `eye`: size of a cell on the screen
+    glm::ivec2 size{0};             ///< with `eye`: of the image
+    double fovDegrees = 30;
 };
 void runMesh(const MeshCommand& command, const CommonOptions& common);
 /// Area, enclosed volume, components, Euler number of the surface over time, as CSV.

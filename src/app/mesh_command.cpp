@@ -6,6 +6,9 @@
 #include "surface/extract.h"
 #include "volume/time_axis.h"
 
+#include <glm/trigonometric.hpp>
+
+#include <cmath>
 #include <iostream>
 
 namespace isoglass {
@@ -25,6 +28,15 @@ TimedField readField(const SeriesFile& file, double time) {
     return field;
 }
 
+std::optional<View> viewOf(const MeshCommand& command) {
+    if (!command.eye) return std::nullopt;
+    View view;
+    view.eye = *command.eye;
+    view.pixelsPerUnit = command.size.y / (2 * std::tan(glm::radians(command.fovDegrees) / 2));
+    view.cellPixels = command.cellPixels;
+    return view;
+}
+
 }  // namespace
 
 void runMesh(const MeshCommand& command, const CommonOptions& common) {
@@ -36,6 +48,7 @@ void runMesh(const MeshCommand& command, const CommonOptions& common) {
     const Extraction result = extractSurface(file.description().lattice, readField(file, time),
                                              {.iso = static_cast<float>(command.iso),
                                               .insideIsBelow = command.insideIsBelow,
+                                              .view = viewOf(command),
                                               .threads = common.threads});
     const ExtractStats& stats = result.stats;
     if (result.mesh.empty()) {

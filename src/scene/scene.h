@@ -157,8 +157,8 @@ struct Lighting {
     friend bool operator==(const Lighting&, const Lighting&) = default;
 };
 
-/// Accuracy and speed that the user wants; at most one of `pixels` and `errorPixels`. Full resolution
-/// satisfies any accuracy, so nothing acts on the first three yet.
+/// Accuracy and speed that the user wants; at most one of `pixels` and `errorPixels`. Without `pixels`
+/// surfaces have full resolution, which satisfies any accuracy.
 struct Quality {
     std::optional<double> pixels;             ///< size of a cell on the screen
     std::optional<double> errorPixels;        ///< displacement of the surface on the screen

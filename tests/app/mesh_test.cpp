@@ -54,6 +54,30 @@ TEST_F(Mesh, TimeChoosesTheMoment) {
     EXPECT_NE(bytesOf("first.ply"), bytesOf("later.ply"));
 }
 
+TEST_F(Mesh, ViewMakesItCoarserWithTheDistance) {
+    const auto triangles = [&](const std::string& eye) {
+        const RunResult result = run({"mesh", "ocean.vdb", "--iso", "15", "-o", "view.ply", "--eye", eye,
+                                      "--pixels", "2", "--size", "1280x720"});
+        EXPECT_TRUE(contains(result.out, "view.ply: ")) << result.err;
+        return numberBefore(result.out, "triangles");
+    };
+    // The ocean's axes are degrees and metres, so that the eye is far away at a distance of 1e7.
+    EXPECT_LT(3 * triangles("0,0,1e7"), triangles("200,0,-100"));
+}
+
+TEST_F(Mesh, ViewIsGivenWhole) {
+    for (const std::vector<std::string>& part :
+         {std::vector<std::string>{"--eye", "1,2,3"}, {"--pixels", "1"}, {"--fov", "40"}}) {
+        std::vector<std::string> arguments = {"mesh", "ocean.vdb", "--iso", "15", "-o", "view.ply"};
+        arguments.insert(arguments.end(), part.begin(), part.end());
+        EXPECT_EQ(isoglass(arguments).status, 2) << part[0];
+    }
+    EXPECT_EQ(isoglass({"mesh", "ocean.vdb", "--iso", "15", "-o", "view.ply", "--eye", "1,2", "--pixels", "1",
+                        "--size", "64x64"})
+                  .status,
+              2);
+}
+
 TEST_F(Mesh, EmptySurfaceIsWrittenAndSaid) {
     const RunResult result = run({"mesh", "ocean.vdb", "--iso", "1000", "-o", "empty.ply"});
     EXPECT_TRUE(contains(result.err, "isoglass: note: the mesh is empty: iso-value 1000")) << result.err;

@@ -1,6 +1,7 @@
 #include "pipeline/key_frame_cache.h"
 
 #include "base/error.h"
+#include "volume/pyramid.h"
 
 #include <algorithm>
 #include <string>
@@ -15,11 +16,16 @@ std::string sizeText(std::size_t bytes) {
     return std::to_string((bytes + 999'999) / 1'000'000) + "MB";
 }
 
-std::size_t largestFrame(const SeriesFile& series) {
+std::size_t bytesOf(const SeriesFile& series, std::size_t frame, KeyFrameCache::Frames kept) {
+    const std::size_t plain = series.description().frames[frame].bytes;
+    if (kept == KeyFrameCache::Frames::plain) return plain;
+    return plain + Pyramid::largestBytes(series.description().lattice.dims(), plain);
+}
+
+std::size_t largestFrame(const SeriesFile& series, KeyFrameCache::Frames kept) {
     std::size_t largest = 0;
-    for (const FrameRecord& frame : series.description().frames) {
-        largest = std::max<std::size_t>(largest, frame.bytes);
-    }
+    for (std::size_t i = 0; i < series.description().frames.size(); ++i)
+        largest = std::max(largest, bytesOf(series, i, kept));
     return largest;
 }
 
@@ -40,10 +46,11 @@ class KeyFrameCache::Waiting {
     KeyFrameCache& cache_;
 };
 
-KeyFrameCache::KeyFrameCache(std::vector<std::shared_ptr<const SeriesFile>> series, std::size_t budgetBytes)
-    : series_(std::move(series)), budget_(budgetBytes) {
+KeyFrameCache::KeyFrameCache(std::vector<std::shared_ptr<const SeriesFile>> series, std::size_t budgetBytes,
+                             Frames kept)
+    : series_(std::move(series)), budget_(budgetBytes), kept_(kept) {
     for (const auto& file : series_) {
-        const std::size_t needed = 2 * largestFrame(*file);
+        const std::size_t needed = 2 * largestFrame(*file, kept_);
         if (needed > budget_) {
             throw Error("the memory budget of " + sizeText(budget_) + " cannot hold two key frames",
                         file->path().string(), "give at least --memory " + sizeText(needed));
@@ -95,7 +102,7 @@ bool KeyFrameCache::holds(FrameKey key) const {
 }
 
 std::size_t KeyFrameCache::expectedBytes(FrameKey key) const {
-    return series_[key.series]->description().frames[key.frame].bytes;
+    return bytesOf(*series_[key.series], key.frame, kept_);
 }
 
 /// Drops frames that nobody holds until `bytes` more fit: first those that nobody wants, then the ones
@@ -128,6 +135,7 @@ std::shared_ptr<const KeyFrame> KeyFrameCache::read(Lock& lock, FrameKey key) {
     lock.unlock();
     try {
         frame = series_[key.series]->read(key.frame);
+        if (kept_ == Frames::withLevels) frame->pyramid();
     } catch (...) {
         failure = std::current_exception();
     }

@@ -29,9 +29,16 @@ struct FrameKey {
 /// may call any member; one thread at a time may hold frames across calls of `get`.
 class KeyFrameCache {
   public:
+    /// What is kept of a key frame.
+    enum class Frames {
+        plain,
+        withLevels,  ///< its pyramid, too: built where it is read, and counted with what it may take at most
+    };
+
     /// Throws Error where the budget cannot hold two key frames of every series: one moment between
     /// key frames needs two.
-    KeyFrameCache(std::vector<std::shared_ptr<const SeriesFile>> series, std::size_t budgetBytes);
+    KeyFrameCache(std::vector<std::shared_ptr<const SeriesFile>> series, std::size_t budgetBytes,
+                  Frames kept = Frames::plain);
     ~KeyFrameCache();
 
     /// The key frame; waits for the disk where it is not there yet. Hand back (drop) frames that are no
@@ -60,6 +67,7 @@ class KeyFrameCache {
 
     const std::vector<std::shared_ptr<const SeriesFile>> series_;
     const std::size_t budget_;
+    const Frames kept_;
 
     mutable std::mutex mutex_;
     std::condition_variable_any changed_;

@@ -1,5 +1,6 @@
 #include "pipeline/scene_extractor.h"
 
+#include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
@@ -21,7 +22,9 @@ SceneExtractor::SceneExtractor(const Scene& scene, Options options) : scene_(sce
         checkGrid(volume, files.back()->description());
         series_.push_back(playSeries(volume, scene_.time, files.back()));
     }
-    cache_ = std::make_unique<KeyFrameCache>(std::move(files), options_.memoryBytes);
+    const auto frames =
+        scene_.quality.pixels ? KeyFrameCache::Frames::withLevels : KeyFrameCache::Frames::plain;
+    cache_ = std::make_unique<KeyFrameCache>(std::move(files), options_.memoryBytes, frames);
 }
 
 std::vector<PlannedWork> SceneExtractor::planAt(std::size_t volume, const TimeSample& sample) const {
@@ -60,6 +63,15 @@ std::vector<FrameKey> SceneExtractor::framesAhead(double position) const {
     return keys;
 }
 
+View SceneExtractor::viewOf(const Volume& volume, const CameraPose& camera, int imageHeight) const {
+    View view;
+    view.eye = glm::dvec3(glm::inverse(worldFromSeries(volume.place)) * glm::dvec4(camera.eye, 1.0));
+    view.worldPerUnit = glm::abs(volume.place.scale);
+    view.pixelsPerUnit = imageHeight / (2 * std::tan(scene_.camera.fovDegrees * M_PI / 360));
+    view.cellPixels = scene_.quality.pixels.value_or(0);
+    return view;
+}
+
 SceneMeshes SceneExtractor::extract(double position, const CameraPose& camera, int imageHeight) {
     cache_->want(framesAhead(position));
     SceneMeshes result;
@@ -72,9 +84,7 @@ SceneMeshes SceneExtractor::extract(double position, const CameraPose& camera, i
         result.work.push_back(planAt(v, result.times.back()));
         const std::vector<PlannedWork>& work = result.work.back();
         const TimedField field = fieldAt(v, result.times.back(), work);
-        View view;
-        view.eye = glm::dvec3(glm::inverse(worldFromSeries(volume.place)) * glm::dvec4(camera.eye, 1.0));
-        view.pixelsPerUnit = imageHeight / (2 * std::tan(scene_.camera.fovDegrees * M_PI / 360));
+        const View view = viewOf(volume, camera, imageHeight);
         for (std::size_t s = 0; s < volume.surfaces.size(); ++s) {
             const Surface& surface = volume.surfaces[s];
             if (!isNeeded(work, WorkKind::extraction, s)) {

@@ -58,6 +58,7 @@ class SceneExtractor {
     TimedField fieldAt(std::size_t volume, const TimeSample& sample, const std::vector<PlannedWork>& work);
     std::vector<PlannedWork> planAt(std::size_t volume, const TimeSample& sample) const;
     std::vector<FrameKey> framesAhead(double position) const;
+    View viewOf(const Volume& volume, const CameraPose& camera, int imageHeight) const;
 
     Scene scene_;
     Options options_;

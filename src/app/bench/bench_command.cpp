@@ -89,6 +89,7 @@ std::string nameList(const std::vector<std::string>& names) {
 
 void runBench(const BenchCommand& command, const CommonOptions& common) {
     registerExtraction(common.threads, command.repetitions);
+    registerDetail(common.threads, command.repetitions);
     registerPasses(command.repetitions);
     Reporter reporter(command.json);
     std::ostringstream libraryErrors;
