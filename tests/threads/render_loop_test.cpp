@@ -160,6 +160,30 @@ TEST(RenderLoop, ImageHasTheSizeOfTheNewestView) {
     EXPECT_EQ(sizes, (std::vector<glm::ivec2>{{32, 32}, {20, 10}}));
 }
 
+/// Whoever posts a view and then an order finds that view, or a newer one, in the frame of the order.
+TEST(RenderLoop, WhatWokenFindsIsForTheViewsThatWerePostedBefore) {
+    constexpr int kLast = 200;
+    RenderInbox inbox;
+    Mailbox<int> orders(&inbox.news);
+    std::optional<int> order;
+    RenderLoop::Hooks hooks;
+    hooks.woken = [&] { order = orders.tryTake(); };
+    hooks.present = [&](const ShownFrame& shown, Renderer& renderer) {
+        if (!order) return true;
+        EXPECT_GE(renderer.readSrgb().size.x, *order) << "frame " << shown.count;
+        return *order < 32 + kLast;
+    };
+    RenderLoop loop(redSquare(), Pace::newest, inbox, std::move(hooks));
+    for (int number = 1; number <= kLast; ++number) {
+        RenderView next = view({0, 0});
+        // The size says which view it is; the scene's own is 32 wide.
+        next.size = {32 + number, 4};
+        inbox.views.post(next);
+        orders.post(32 + number);
+    }
+    loop.join();
+}
+
 TEST(RenderLoop, WireframeDrawsTheEdgesAndNothingBetween) {
     RenderInbox inbox;
     inbox.meshes.post(squareSet());

@@ -101,11 +101,13 @@ Placement choosePlace(const Lattice& lattice, const Bounds& box, std::vector<std
     Placement place;
     const glm::dvec3 extent = box.high - box.low;
     const double widest = std::max(extent.x, extent.y);
-    const bool sameUnits = lattice.axes[2].units == lattice.axes[0].units;
-    if (sameUnits || !(extent.z > 0) || !(widest > 0)) return place;
+    const std::string& units = lattice.heights ? lattice.heights->units : lattice.axes[2].units;
+    const std::string& unitsOfX = lattice.axes[0].units;
+    if (units == unitsOfX || !(extent.z > 0) || !(widest > 0)) return place;
     place.scale.z = widest / 3 / extent.z;
-    reasons.push_back("height is scaled by " + formatNumber(place.scale.z) + ": its units, '" +
-                      lattice.axes[2].units + "', are not those of x, '" + lattice.axes[0].units + "'");
+    const auto called = [](const std::string& name) { return name.empty() ? "not given" : name; };
+    reasons.push_back("height is scaled by " + formatNumber(place.scale.z) + ": its units are " +
+                      called(units) + ", those of x " + called(unitsOfX));
     return place;
 }
 

@@ -40,8 +40,8 @@ RenderLoop::Hooks WindowOutput::hooks() {
             [this] {
                 if (auto newest = orders_.tryTake()) order_ = std::move(*newest);
             },
-        .taken = [this](const FrameMeshes&) { failure_.clear(); },
-        .failed = [this](const FrameMeshes& failed) { failure_ = reasonOf(failed.failure); },
+        .taken = [this](const FrameMeshes& taken) { answer(taken, {}); },
+        .failed = [this](const FrameMeshes& failed) { answer(failed, reasonOf(failed.failure)); },
         .present = [this](const ShownFrame& shown, Renderer& renderer) { return present(shown, renderer); },
         .ended =
             [this] {
@@ -59,19 +59,21 @@ std::unique_ptr<gl::CurrentContext> WindowOutput::makeContext() {
 bool WindowOutput::present(const ShownFrame& shown, Renderer& renderer) {
     const glm::ivec2 size = renderer.copyToWindow();
     target_->overlay.draw(order_.text, size);
-    saveIfDue(shown, renderer);
+    saveIfDue(renderer);
     target_->window.show();
     shown_.post({shown.meshes ? shown.meshes->meshes.axisTimes : std::vector<double>{}, failure_});
     gl::Window::wake();
     return true;
 }
 
-void WindowOutput::saveIfDue(const ShownFrame& shown, Renderer& renderer) {
+void WindowOutput::answer(const FrameMeshes& meshes, std::string failure) {
+    answered_ = meshes.request.number;
+    failure_ = std::move(failure);
+}
+
+void WindowOutput::saveIfDue(Renderer& renderer) {
     const bool asked = order_.screenshots > saved_;
-    // A failed request is never shown: what there is must do.
-    const bool there =
-        !failure_.empty() || (shown.meshes && shown.meshes->request.number >= order_.screenshotRequest);
-    if (!asked || !there) return;
+    if (!asked || !answered_ || *answered_ < order_.screenshotRequest) return;
     saved_ = order_.screenshots;
     screenshots_.save(renderer.readSrgb(), name_);
 }

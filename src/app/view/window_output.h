@@ -19,7 +19,7 @@ namespace isoglass {
 struct OutputOrder {
     OverlayText text;
     std::uint64_t screenshots = 0;  ///< how many were asked for since the beginning
-    /// The picture to save is the first one that shows this request or a later one.
+    /// The picture to save is the first one after this request, or a later one, was answered.
     std::uint64_t screenshotRequest = 0;
 
     friend bool operator==(const OutputOrder&, const OutputOrder&) = default;
@@ -53,7 +53,8 @@ class WindowOutput {
 
     std::unique_ptr<gl::CurrentContext> makeContext();
     bool present(const ShownFrame& shown, Renderer& renderer);
-    void saveIfDue(const ShownFrame& shown, Renderer& renderer);
+    void answer(const FrameMeshes& meshes, std::string failure);
+    void saveIfDue(Renderer& renderer);
 
     gl::Window& window_;
     Screenshots& screenshots_;
@@ -67,6 +68,7 @@ class WindowOutput {
     Target* target_ = nullptr;  ///< owned by the render loop
     OutputOrder order_;
     std::uint64_t saved_ = 0;
+    std::optional<std::uint64_t> answered_;  ///< the newest request whose meshes came, or failed to
     std::string failure_;
 };
 
