@@ -7,7 +7,11 @@ find_package(glm REQUIRED)
 find_package(nlohmann_json REQUIRED)
 # Before OpenVDB: its module defines a part of oneTBB, after which VTK finds the rest inconsistent.
 if(ISOGLASS_VTK)
-  find_package(VTK 9.1 QUIET COMPONENTS CommonCore CommonDataModel CommonExecutionModel IOXML IOXMLParser)
+  # VTK's drawing, which a benchmark compares with, links to these; its targets belong to this directory.
+  find_package(X11 QUIET)
+  find_package(GLEW QUIET)
+  find_package(VTK 9.1 QUIET COMPONENTS CommonCore CommonDataModel CommonExecutionModel IOXML IOXMLParser
+    OPTIONAL_COMPONENTS RenderingCore RenderingOpenGL2)
   if(NOT VTK_FOUND)
     message(STATUS "VTK was not found: .vti, .pvd and .vti.series cannot be imported (libvtk9-dev)")
     set(ISOGLASS_VTK OFF)
