@@ -6,4 +6,8 @@ invariant gl_Position;
 
 layout(location = 0) in vec3 positionMesh;
 
-void placeVertex() { gl_Position = clipFromMesh * vec4(positionMesh, 1.0); }
+void placeVertex() {
+    gl_Position = clipFromMesh * vec4(positionMesh, 1.0);
+    // Depth is near over distance.
+    gl_Position.z *= depthScale;
+}

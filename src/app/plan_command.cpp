@@ -1,4 +1,5 @@
 #include "app/commands.h"
+#include "app/cosine_fits.h"
 #include "app/text.h"
 #include "gl/headless_context.h"
 #include "pipeline/render_loop.h"
@@ -92,7 +93,8 @@ Json planJson(const Scene& scene, const std::vector<std::vector<PlannedWork>>& w
             {"work", workJson(scene, works, true)},
             {"passes", std::move(passes)},
             {"work_left_out", workJson(scene, works, false)},
-            {"left_out", std::move(leftOut)}};
+            {"left_out", std::move(leftOut)},
+            {"cosine_fits", cosineFitsJson(scene)}};
 }
 
 void printWork(const Json& list) {
@@ -140,6 +142,7 @@ void runPlan(const PlanCommand& command, const CommonOptions& common) {
         std::cout << plan.dump(2) << '\n';
     } else {
         print(plan);
+        printCosineFits(scene);
     }
 }
 

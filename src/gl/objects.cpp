@@ -101,6 +101,13 @@ void VertexArray::setVec3(GLuint location, const Buffer& buffer) const {
     glEnableVertexArrayAttrib(name(), location);
 }
 
+void VertexArray::setFloat(GLuint location, const Buffer& buffer) const {
+    glVertexArrayVertexBuffer(name(), location, buffer.name(), 0, sizeof(float));
+    glVertexArrayAttribFormat(name(), location, 1, GL_FLOAT, GL_FALSE, 0);
+    glVertexArrayAttribBinding(name(), location, location);
+    glEnableVertexArrayAttrib(name(), location);
+}
+
 void VertexArray::setIndices(const Buffer& buffer) const {
     glVertexArrayElementBuffer(name(), buffer.name());
 }

@@ -90,6 +90,8 @@ class VertexArray : public Handle<destroyVertexArray> {
 
     /// Attribute `location` reads three floats a vertex, tightly packed.
     void setVec3(GLuint location, const Buffer& buffer) const;
+    /// Attribute `location` reads one float a vertex, tightly packed.
+    void setFloat(GLuint location, const Buffer& buffer) const;
     /// Indices are 32-bit.
     void setIndices(const Buffer& buffer) const;
 };

@@ -22,6 +22,8 @@ struct SurfaceMesh {
     /// One a vertex: minus the field's gradient in world space (towards outside), *not* normalised, so
     /// that it interpolates without popping; normalise per fragment. Finite and never zero.
     std::vector<glm::vec3> normals;
+    /// Empty, or one a vertex: the value that colours it; NaN where there is none.
+    std::vector<float> colorValues{};
     /// Three vertex indices a triangle.
     std::vector<std::uint32_t> triangles;
 

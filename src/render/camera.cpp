@@ -122,7 +122,7 @@ MeshMatrices meshMatrices(const glm::dmat4& clipFromEye, const glm::dvec3& eyeWo
     const double largest = largestElement(normals);
     if (largest > 0) normals *= (determinant < 0 ? -1 : 1) / largest;
     return {glm::mat4(clipFromEye * eyeFromMesh), glm::mat4(eyeFromMesh), glm::mat3(normals),
-            determinant < 0};
+            determinant != 0 ? static_cast<float>(largest / std::abs(determinant)) : 0.0f, determinant < 0};
 }
 
 }  // namespace isoglass

@@ -56,6 +56,7 @@ struct MeshMatrices {
     glm::mat4 clipFromMesh;
     glm::mat4 eyeFromMesh;     ///< world axes, origin at the eye
     glm::mat3 normalFromMesh;  ///< inverse transpose up to a positive factor, largest element 1
+    float gradientScale;       ///< length of the world gradient for a transformed normal of length 1
     bool mirrored;             ///< the placement turns counter-clockwise into clockwise
 };
 

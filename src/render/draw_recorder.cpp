@@ -1,6 +1,7 @@
 #include "render/draw_recorder.h"
 
 #include "render/uniforms.h"
+#include "scene/color_map.h"
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/matrix.hpp>
@@ -31,7 +32,7 @@ Bounds boundsWorld(const GpuMesh& mesh, const glm::dmat4& worldFromSeries) {
 std::vector<const SurfaceDraw*> visibleDraws(const FrameDescription& frame, const MeshStore& meshes) {
     std::vector<const SurfaceDraw*> visible;
     for (const SurfaceDraw& draw : frame.draws) {
-        if (meshes.get(draw.mesh).indexCount > 0 && draw.opacity > 0) visible.push_back(&draw);
+        if (meshes.get(draw.mesh).indexCount > 0 && draw.visible()) visible.push_back(&draw);
     }
     return visible;
 }
@@ -50,8 +51,29 @@ glm::dmat4 clipFromEyeFor(const FrameDescription& frame, const std::vector<const
     return clipFromEye(frame.camera, nearDistance(frame.camera, drawn));
 }
 
+void setShell(const PreparedShell& prepared, float gradientScale, DrawUniforms& uniforms) {
+    uniforms.opacityModel = 1 + static_cast<int>(prepared.shell.model);
+    uniforms.extinction = prepared.shell.extinction;
+    uniforms.thickness = prepared.shell.thickness;
+    uniforms.isoWidth = prepared.shell.isoWidth;
+    uniforms.maxThickness = prepared.shell.maxThickness;
+    uniforms.cosinePower = static_cast<float>(prepared.fit.power);
+    uniforms.cosineOffset = static_cast<float>(prepared.fit.offset);
+    uniforms.gradientScale = gradientScale;
+}
+
 DrawUniforms drawUniforms(const MeshMatrices& matrices, const SurfaceDraw& draw) {
-    DrawUniforms uniforms{matrices.clipFromMesh, matrices.eyeFromMesh, {}, {draw.color, draw.opacity}};
+    DrawUniforms uniforms{};
+    uniforms.clipFromMesh = matrices.clipFromMesh;
+    uniforms.eyeFromMesh = matrices.eyeFromMesh;
+    uniforms.colorOpacity = {draw.color, draw.opacity};
+    uniforms.depthScale = 1 + static_cast<float>(draw.depthRank) * 0x1p-14f;
+    if (draw.colorBar) {
+        uniforms.colorByValue = 1;
+        uniforms.colorLow = static_cast<float>(draw.colorBar->low);
+        uniforms.colorScale = static_cast<float>(1 / (draw.colorBar->high - draw.colorBar->low));
+    }
+    if (draw.shell) setShell(*draw.shell, matrices.gradientScale, uniforms);
     for (int column = 0; column < 3; ++column) {
         uniforms.normalFromMesh[static_cast<std::size_t>(column)] =
             glm::vec4(matrices.normalFromMesh[column], 0);
@@ -75,8 +97,9 @@ void DrawRecorder::prepare(const FrameDescription& frame, const MeshStore& meshe
     std::size_t offset = 0;
     for (const SurfaceDraw* draw : visible_) {
         const bool mirrored = glm::determinant(glm::dmat3(draw->worldFromSeries)) < 0;
-        auto& list = draw->opacity >= 1 ? opaque_ : semiTransparent_;
-        list.push_back({&meshes.get(draw->mesh), offset, mirrored});
+        auto& list = draw->opaque() ? opaque_ : semiTransparent_;
+        const std::size_t map = draw->colorBar ? draw->colorBar->map : 0;
+        list.push_back({&meshes.get(draw->mesh), offset, mirrored, map});
         offset += uniformStride_;
     }
 }
@@ -126,6 +149,15 @@ void DrawRecorder::uploadUniforms(const std::vector<std::byte>& bytes) {
     uniforms_->write(0, bytes);
 }
 
+const gl::Buffer& DrawRecorder::colorMapUniforms(std::size_t map) {
+    if (const auto found = colorMaps_.find(map); found != colorMaps_.end()) return found->second;
+    ColorMapUniforms uniforms{};
+    const auto colors = colorMap(map);
+    for (std::size_t i = 0; i < colors.size(); ++i) uniforms.colors[i] = {colors[i], 0};
+    return colorMaps_.emplace(map, gl::Buffer::immutable(std::as_bytes(std::span(&uniforms, 1))))
+        .first->second;
+}
+
 void DrawRecorder::beginPass(const gl::PipelineState& state) {
     passState_ = state;
     state_.apply(state);
@@ -138,6 +170,8 @@ void DrawRecorder::draw(const std::vector<PreparedDraw>& draws) {
         state_.apply(state);
         glBindBufferRange(GL_UNIFORM_BUFFER, DrawUniforms::kBinding, uniforms_->name(),
                           static_cast<GLintptr>(draw.uniformOffset), sizeof(DrawUniforms));
+        glBindBufferBase(GL_UNIFORM_BUFFER, ColorMapUniforms::kBinding,
+                         colorMapUniforms(draw.colorMap).name());
         glBindVertexArray(draw.mesh->vertexArray.name());
         glDrawElements(GL_TRIANGLES, draw.mesh->indexCount, GL_UNSIGNED_INT, nullptr);
     }

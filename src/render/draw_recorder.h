@@ -4,6 +4,7 @@
 #include "gl/pipeline_state.h"
 #include "render/frame_description.h"
 
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -39,11 +40,13 @@ class DrawRecorder {
         const GpuMesh* mesh;
         std::size_t uniformOffset;
         bool mirrored;
+        std::size_t colorMap;
     };
 
     void uploadFrameUniforms(int subframes);
 
     void draw(const std::vector<PreparedDraw>& draws);
+    const gl::Buffer& colorMapUniforms(std::size_t map);
     void uploadUniforms(const std::vector<std::byte>& bytes);
 
     gl::StateCache& state_;
@@ -51,6 +54,7 @@ class DrawRecorder {
     std::size_t uniformStride_;
     std::optional<gl::Buffer> uniforms_;
     gl::Buffer frameUniforms_;
+    std::map<std::size_t, gl::Buffer> colorMaps_;  ///< made when first used
     gl::VertexArray noVertices_;
     FrameDescription frame_;
     const MeshStore* meshes_ = nullptr;

@@ -1,11 +1,14 @@
 #pragma once
 
+#include "optics/shell_transmittance.h"
 #include "render/camera.h"
+#include "render/legend.h"
 #include "render/mesh_store.h"
 #include "scene/scene.h"
 
 #include <glm/mat4x4.hpp>
 
+#include <optional>
 #include <vector>
 
 namespace isoglass {
@@ -15,7 +18,18 @@ struct SurfaceDraw {
     MeshId mesh{};
     glm::dmat4 worldFromSeries{1};  ///< affine; the mesh's positions are series coordinates
     LinearColor color{0.8f};
+    /// Colour by the mesh's `colorValues` takes the place of `color`; the mesh must have them.
+    std::optional<LegendBar> colorBar{};
     float opacity = 1;  ///< 1 and above is opaque; 0 and below, like an empty mesh, is not drawn at all
+    /// Opacity by the angle of view takes the place of `opacity`; never opaque.
+    std::optional<PreparedShell> shell{};
+
+    /// Moves the surface towards the eye by 2^-14 of its distance a rank, which settles what is in front
+    /// where flat parts of several surfaces lie in one plane.
+    int depthRank = 0;
+
+    bool opaque() const { return opacity >= 1 && !shell; }
+    bool visible() const { return opacity > 0 || shell; }
 
     friend bool operator==(const SurfaceDraw&, const SurfaceDraw&) = default;
 };
@@ -32,12 +46,13 @@ struct FrameDescription {
     /// normal and view: light and eye are one. Both sides of a surface are lit alike. `shininess` is above 0.
     Lighting lighting{};
     TransparencyMethod method = TransparencyMethod::automatic;
-    int layers = 4;             ///< of the method peel, 1 to kMostLayers
-    bool reproducible = false;  ///< the same bits for any order of draws and triangles; not with 2-pass
-    bool exactWanted = false;   ///< the method automatic takes exact
-    int samples = 1;            ///< a pixel, 1 to kMostSamples, averaged in linear light
-    bool wireframe = false;     ///< triangles are drawn as their edges, to look at the mesh
-    bool keepLinear = true;     ///< Renderer::readLinear works after the frame; costs up to one pass
+    int layers = 4;                   ///< of the method peel, 1 to kMostLayers
+    bool reproducible = false;        ///< the same bits for any order of draws and triangles; not with 2-pass
+    bool exactWanted = false;         ///< the method automatic takes exact
+    int samples = 1;                  ///< a pixel, 1 to kMostSamples, averaged in linear light
+    bool wireframe = false;           ///< triangles are drawn as their edges, to look at the mesh
+    std::vector<Overlay> overlays{};  ///< cover the sRGB image, not the linear one
+    bool keepLinear = true;           ///< Renderer::readLinear works after the frame; costs up to one pass
 
     friend bool operator==(const FrameDescription&, const FrameDescription&) = default;
 };

@@ -18,6 +18,8 @@ struct Raster {
     const Pixel& at(int x, int y) const { return pixels[index(x, y)]; }
     Pixel& at(int x, int y) { return pixels[index(x, y)]; }
 
+    friend bool operator==(const Raster&, const Raster&) = default;
+
   private:
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(x);

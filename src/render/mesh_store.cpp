@@ -49,6 +49,7 @@ MeshId MeshStore::upload(const SurfaceMesh& mesh) {
     GpuMesh gpu{uploaded(mesh.positions),
                 uploaded(mesh.normals),
                 uploaded(mesh.triangles),
+                mesh.colorValues.empty() ? std::nullopt : std::optional(uploaded(mesh.colorValues)),
                 gl::VertexArray(),
                 static_cast<std::int32_t>(mesh.triangles.size()),
                 mesh.origin,
@@ -56,6 +57,7 @@ MeshId MeshStore::upload(const SurfaceMesh& mesh) {
                 isFlat(bounds)};
     gpu.vertexArray.setVec3(0, gpu.positions);
     gpu.vertexArray.setVec3(1, gpu.normals);
+    if (gpu.colorValues) gpu.vertexArray.setFloat(2, *gpu.colorValues);
     gpu.vertexArray.setIndices(gpu.triangles);
     context_.debugLog().throwIfAny("upload of a mesh");
     const MeshId id{++lastId_};
@@ -77,6 +79,7 @@ std::size_t MeshStore::bytes() const {
     std::size_t sum = 0;
     for (const auto& [id, mesh] : meshes_) {
         sum += mesh.positions.bytes() + mesh.normals.bytes() + mesh.triangles.bytes();
+        if (mesh.colorValues) sum += mesh.colorValues->bytes();
     }
     return sum;
 }

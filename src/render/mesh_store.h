@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 
 namespace isoglass {
 
@@ -19,6 +20,7 @@ struct GpuMesh {
     gl::Buffer positions;
     gl::Buffer normals;
     gl::Buffer triangles;
+    std::optional<gl::Buffer> colorValues;  ///< only of meshes that have them
     gl::VertexArray vertexArray;
     std::int32_t indexCount;
     glm::dvec3 origin;  ///< of the positions, in series coordinates

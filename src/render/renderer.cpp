@@ -35,6 +35,16 @@ Raster<Pixel> readBack(gl::Context& context, RenderTargets& targets, Target targ
     return raster;
 }
 
+/// Replaces a part of the picture.
+void cover(const Overlay& overlay, RenderTargets& targets) {
+    Image image = overlay.image;
+    flipRows(image);
+    const glm::ivec2 size = targets.sizeOf(Target::srgbImage);
+    glTextureSubImage2D(targets.texture(Target::srgbImage).name(), 0, overlay.at.x,
+                        size.y - overlay.at.y - image.size.y, image.size.x, image.size.y, GL_RGBA,
+                        GL_UNSIGNED_BYTE, image.pixels.data());
+}
+
 void checkCount(int count, int most, const char* what) {
     if (count >= 1 && count <= most) return;
     throw Error(std::to_string(count) + " " + what, "image", "choose 1 to " + std::to_string(most));
@@ -86,6 +96,7 @@ void Renderer::render(const FrameDescription& frame, const FramePlan& plan) {
         if (frame.wireframe) drawWireframe(passes);
         executor_.run(passes, parts);
     }
+    for (const Overlay& overlay : frame.overlays) cover(overlay, targets_);
     context_.debugLog().throwIfAny("frame");
     drawnSubframes_ = plan_.subframes;
     drewOpaque_ = plan_.runs(PassKind::opaque);

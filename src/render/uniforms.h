@@ -30,6 +30,25 @@ struct DrawUniforms {
     glm::mat4 eyeFromMesh;
     std::array<glm::vec4, 3> normalFromMesh;  ///< columns; the fourth component is padding
     glm::vec4 colorOpacity;
+    int opacityModel;  ///< 0 constant, else 1 + ShellOpacity::Model
+    float extinction;
+    float thickness;
+    float isoWidth;
+    float maxThickness;
+    float cosinePower;
+    float cosineOffset;
+    float gradientScale;
+    float depthScale;
+    int colorByValue;  ///< 0 or 1
+    float colorLow;
+    float colorScale;  ///< one over the range
+};
+
+/// Uniform block `ColorMap` of shaders/lib/color_map.glsl, std140.
+struct ColorMapUniforms {
+    static constexpr unsigned kBinding = 2;
+
+    std::array<glm::vec4, 256> colors;  ///< linear; the fourth component is padding
 };
 
 }  // namespace isoglass

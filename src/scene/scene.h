@@ -1,5 +1,8 @@
 #pragma once
 
+#include "scene/field_color.h"
+#include "scene/shell_opacity.h"
+
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -49,8 +52,12 @@ struct Surface {
     Inside inside = Inside::above;
     LinearColor color{0.799102724f};  ///< #e7e7e7
     float opacity = 1;                ///< 1 is opaque: drawn in the opaque pass
+    /// Opacity by the angle of view takes the place of the constant one; never opaque.
+    std::optional<ShellOpacity> shell{};
+    /// Colour by a value at each point takes the place of `color`.
+    std::optional<FieldColor> fieldColor{};
 
-    bool opaque() const { return opacity >= 1; }
+    bool opaque() const { return opacity >= 1 && !shell; }
 
     friend bool operator==(const Surface&, const Surface&) = default;
 };
@@ -72,6 +79,14 @@ struct ClockMap {
     friend bool operator==(const ClockMap&, const ClockMap&) = default;
 };
 
+/// A plane that cuts surfaces: where a x + b y + c z + d >= 0 is kept.
+struct ClipPlane {
+    glm::dvec4 plane{0, 0, 1, 0};  ///< a, b, c, d; the normal is not zero
+    bool cap = true;               ///< fill what is inside on the cut
+
+    friend bool operator==(const ClipPlane&, const ClipPlane&) = default;
+};
+
 struct Volume {
     std::string name;
     /// Absolute, or relative to the working directory. The name of the file may be a pattern with * and ?.
@@ -80,6 +95,8 @@ struct Volume {
     std::string grid;                               ///< name that the series must have; empty takes any
     Placement place;
     ClockMap time;
+    std::vector<ClipPlane> clip{};  ///< in series coordinates
+    bool closed = false;            ///< what is inside is capped where the domain ends
     std::vector<Surface> surfaces;
 
     friend bool operator==(const Volume&, const Volume&) = default;
@@ -143,6 +160,7 @@ struct ImageSettings {
     float exposure = 1;           ///< linear factor before the sRGB curve
     int samples = 1;              ///< a pixel, 1 to kMostSamples, averaged in linear light
     float backgroundOpacity = 1;  ///< below 1 pictures have alpha
+    bool legend = true;           ///< draws colour bars for colours by a value
 
     friend bool operator==(const ImageSettings&, const ImageSettings&) = default;
 };
@@ -177,6 +195,7 @@ struct Scene {
     Lighting lighting;
     Quality quality;
     Transparency transparency;
+    std::vector<ClipPlane> clip;  ///< of all volumes, in world coordinates
     /// Keys that were understood but change nothing in this version, a sentence each.
     std::vector<std::string> notes;
 

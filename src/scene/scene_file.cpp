@@ -1,10 +1,13 @@
 #include "scene/scene_file.h"
 
 #include "base/error.h"
+#include "scene/clip_json.h"
 #include "scene/color.h"
+#include "scene/color_json.h"
 #include "scene/iso_date.h"
 #include "scene/json_document.h"
 #include "scene/json_node.h"
+#include "scene/opacity_json.h"
 #include "scene/scene_format.h"
 #include "scene/transparency.h"
 
@@ -30,35 +33,7 @@ constexpr NumberRange kShare{.low = 0, .high = 1};
 constexpr double kMostFrames = 1e9;
 constexpr int kLargestImage = 16384;
 
-LinearColor readColor(const JsonNode& node) {
-    const auto color = node.value().is_string() ? linearFromHex(node.text()) : std::nullopt;
-    if (!color) node.failExpected("an sRGB colour \"#rrggbb\"");
-    return *color;
-}
-
-/// Lists of things that this version cannot do are fine as long as they are empty.
-void refuseItems(const JsonNode& list, const std::string& thing, const std::string& instead) {
-    if (list.size() > 0) list.item(0).failUnavailable(thing, instead);
-}
-
-float readOpacity(const JsonNode& node) {
-    if (!node.value().is_object()) {
-        if (!node.value().is_number()) node.failExpected("a number from 0 to 1, or a model");
-        return static_cast<float>(node.number(kShare));
-    }
-    constexpr std::array kModels{Word("constant"), Word("slab"), Word("cosine"), Word("iso-spectrum")};
-    if (const auto model = node.find("model")) {
-        const std::size_t which = model->choice(kModels);
-        if (which != 0) {
-            model->failUnavailable("the opacity model " + inQuotes(kModels[which]),
-                                   "use a number or the model \"constant\"");
-        }
-    }
-    node.object().require("model");
-    return static_cast<float>(node.require("opacity").number(kShare));
-}
-
-Surface readSurface(const JsonNode& node) {
+Surface readSurface(const JsonNode& node, const std::filesystem::path& baseFolder) {
     node.object();
     Surface surface;
     surface.iso = node.require("iso").number();
@@ -66,8 +41,8 @@ Surface readSurface(const JsonNode& node) {
         constexpr std::array kSides{Word("above"), Word("below")};
         surface.inside = inside->choice(kSides) == 0 ? Inside::above : Inside::below;
     }
-    if (const auto color = node.find("color")) surface.color = readColor(*color);
-    if (const auto opacity = node.find("opacity")) surface.opacity = readOpacity(*opacity);
+    if (const auto color = node.find("color")) readSurfaceColor(*color, baseFolder, surface);
+    if (const auto opacity = node.find("opacity")) readOpacity(*opacity, surface);
     return surface;
 }
 
@@ -130,15 +105,13 @@ Volume readVolume(const JsonNode& node, const std::filesystem::path& baseFolder)
     if (const auto time = node.find("time")) volume.time = readClock(*time);
     if (const auto boundary = node.find("boundary")) {
         constexpr std::array kBoundaries{Word("open"), Word("closed")};
-        if (boundary->choice(kBoundaries) == 1) {
-            boundary->failUnavailable("a closed boundary", "use \"open\"");
-        }
+        volume.closed = boundary->choice(kBoundaries) == 1;
     }
-    if (const auto clip = node.find("clip")) refuseItems(*clip, "clipping", "remove the clip objects");
+    if (const auto clip = node.find("clip")) volume.clip = readClip(*clip);
     const JsonNode surfaces = node.require("surfaces");
     if (surfaces.size() == 0) surfaces.fail("expected at least one surface, found none");
     for (std::size_t i = 0; i < surfaces.size(); ++i)
-        volume.surfaces.push_back(readSurface(surfaces.item(i)));
+        volume.surfaces.push_back(readSurface(surfaces.item(i), baseFolder));
     return volume;
 }
 
@@ -235,6 +208,7 @@ ImageSettings readImage(const JsonNode& node) {
         image.size = {size->item(0).integer(1, kLargestImage), size->item(1).integer(1, kLargestImage)};
     }
     if (const auto background = node.find("background")) readBackground(*background, image);
+    if (const auto legend = node.find("legend")) image.legend = legend->boolean();
     if (const auto samples = node.find("samples")) image.samples = samples->integer(1, kMostSamples);
     if (const auto exposure = node.find("exposure")) {
         image.exposure = static_cast<float>(exposure->number({.low = 1e-6, .high = 1e6}));
@@ -279,7 +253,6 @@ void readQuality(const JsonNode& node, Scene& scene) {
 }
 
 void refuseUnavailable(const JsonNode& root) {
-    if (const auto clip = root.find("clip")) refuseItems(*clip, "clipping", "remove the clip objects");
     for (const Word key : {Word("terrain"), Word("ocean"), Word("sky"), Word("style")}) {
         if (const auto node = root.find(key)) {
             node->failUnavailable(inQuotes(key), "remove it: volumes are what a scene can show");
@@ -303,6 +276,7 @@ Scene readScene(const JsonNode& root, const std::filesystem::path& baseFolder) {
     if (const auto image = root.find("image")) scene.image = readImage(*image);
     if (const auto lighting = root.find("lighting")) scene.lighting = readLighting(*lighting);
     if (const auto method = root.find("transparency")) scene.transparency = readTransparency(*method);
+    if (const auto clip = root.find("clip")) scene.clip = readClip(*clip);
     if (const auto detail = root.find("detail")) readDetail(*detail, scene);
     if (const auto quality = root.find("quality")) readQuality(*quality, scene);
     return scene;

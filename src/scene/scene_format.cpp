@@ -19,14 +19,17 @@ constexpr std::array kScene{Key("$schema"), Key("version"), Key("volumes"),  Key
                             Key("ocean"),   Key("sky"),     Key("style")};
 constexpr std::array kVolume{Key("name"), Key("series"),   Key("grid"), Key("place"),
                              Key("time"), Key("boundary"), Key("clip"), Key("surfaces")};
+constexpr std::array kClip{Key("plane"), Key("cap"), Key("mesh"), Key("keep"), Key("method")};
 constexpr std::array kPlace{Key("translate"), Key("rotate"), Key("scale")};
 constexpr std::array kClock{Key("offset"), Key("scale")};
 constexpr std::array kSurface{Key("iso"), Key("inside"), Key("color"), Key("opacity")};
-constexpr std::array kOpacity{Key("model"), Key("opacity")};
+constexpr std::array kColor{Key("by"), Key("series"), Key("map"), Key("range")};
+constexpr std::array kOpacity{Key("model"),     Key("opacity"),       Key("extinction"), Key("thickness"),
+                              Key("iso_width"), Key("max_thickness"), Key("power")};
 constexpr std::array kTime{Key("from"), Key("to"), Key("duration"), Key("fps")};
 constexpr std::array kCamera{Key("eye"), Key("target"), Key("up"), Key("fov"), Key("path")};
 constexpr std::array kCameraKey{Key("at"), Key("eye"), Key("target")};
-constexpr std::array kImage{Key("size"), Key("background"), Key("samples"), Key("exposure")};
+constexpr std::array kImage{Key("size"), Key("background"), Key("samples"), Key("legend"), Key("exposure")};
 constexpr std::array kLighting{Key("ambient"), Key("diffuse"), Key("specular"), Key("shininess")};
 constexpr std::array kTransparency{Key("method"), Key("layers"), Key("reproducible")};
 constexpr std::array kDetail{Key("pixels"), Key("error_pixels")};
@@ -37,7 +40,9 @@ constexpr std::array kFormat{
     FormatObject{"/volumes/*", kVolume},
     FormatObject{"/volumes/*/place", kPlace},
     FormatObject{"/volumes/*/time", kClock},
+    FormatObject{"/volumes/*/clip/*", kClip},
     FormatObject{"/volumes/*/surfaces/*", kSurface},
+    FormatObject{"/volumes/*/surfaces/*/color", kColor},
     FormatObject{"/volumes/*/surfaces/*/opacity", kOpacity},
     FormatObject{"/time", kTime},
     FormatObject{"/camera", kCamera},
@@ -47,6 +52,7 @@ constexpr std::array kFormat{
     FormatObject{"/transparency", kTransparency},
     FormatObject{"/detail", kDetail},
     FormatObject{"/quality", kQuality},
+    FormatObject{"/clip/*", kClip},
 };
 
 std::size_t editDistance(std::string_view a, std::string_view b) {

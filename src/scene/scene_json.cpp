@@ -1,28 +1,18 @@
+#include "scene/clip_json.h"
 #include "scene/color.h"
+#include "scene/color_json.h"
+#include "scene/opacity_json.h"
 #include "scene/scene_file.h"
 #include "scene/transparency.h"
 
 #include <glm/vec2.hpp>
 #include <nlohmann/json.hpp>
 
-#include <array>
-#include <charconv>
-
 namespace isoglass {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// The double with the fewest digits that is `value` when rounded to single precision: 0.3, not
-/// 0.30000001192092896.
-double shortest(float value) {
-    std::array<char, 32> text;
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-    double result = 0;
-    std::from_chars(text.data(), end, result);
-    return result;
-}
 
 Json vector(const glm::dvec3& v) {
     return Json::array({v.x, v.y, v.z});
@@ -32,26 +22,19 @@ Json time(const SceneTime& time) {
     return std::visit([](const auto& value) { return Json(value); }, time);
 }
 
-std::string seriesPath(const std::filesystem::path& series, const std::filesystem::path& baseFolder) {
-    if (baseFolder.empty()) return series.string();
-    return std::filesystem::absolute(series)
-        .lexically_normal()
-        .lexically_relative(std::filesystem::absolute(baseFolder).lexically_normal())
-        .string();
-}
-
-Json surface(const Surface& surface) {
+Json surface(const Surface& surface, const std::filesystem::path& baseFolder) {
     return {{"iso", surface.iso},
             {"inside", surface.inside == Inside::above ? "above" : "below"},
-            {"color", hexFromLinear(surface.color)},
-            {"opacity", shortest(surface.opacity)}};
+            {"color", surfaceColorJson(surface, baseFolder)},
+            {"opacity", opacityJson(surface)}};
 }
 
 Json volume(const Volume& volume, const std::filesystem::path& baseFolder) {
-    Json json{{"name", volume.name}, {"series", seriesPath(volume.series, baseFolder)}};
+    Json json{{"name", volume.name}, {"series", relativeSeriesPath(volume.series, baseFolder)}};
     if (!volume.moreSeries.empty()) {
         json["series"] = Json::array({json["series"]});
-        for (const auto& file : volume.moreSeries) json["series"].push_back(seriesPath(file, baseFolder));
+        for (const auto& file : volume.moreSeries)
+            json["series"].push_back(relativeSeriesPath(file, baseFolder));
     }
     if (!volume.grid.empty()) json["grid"] = volume.grid;
     const glm::dvec4& rotate = volume.place.rotate;
@@ -59,8 +42,10 @@ Json volume(const Volume& volume, const std::filesystem::path& baseFolder) {
                      {"rotate", Json::array({rotate.x, rotate.y, rotate.z, rotate.w})},
                      {"scale", vector(volume.place.scale)}};
     json["time"] = {{"offset", volume.time.offset}, {"scale", volume.time.scale}};
+    json["boundary"] = volume.closed ? "closed" : "open";
+    json["clip"] = clipJson(volume.clip);
     json["surfaces"] = Json::array();
-    for (const Surface& each : volume.surfaces) json["surfaces"].push_back(surface(each));
+    for (const Surface& each : volume.surfaces) json["surfaces"].push_back(surface(each, baseFolder));
     return json;
 }
 
@@ -100,12 +85,14 @@ std::string toJson(const Scene& scene, const std::filesystem::path& baseFolder) 
         {"size", Json::array({scene.image.size.x, scene.image.size.y})},
         {"background", textFromBackdrop({scene.image.background, scene.image.backgroundOpacity})},
         {"samples", scene.image.samples},
-        {"exposure", shortest(scene.image.exposure)}};
-    json["lighting"] = {{"ambient", shortest(scene.lighting.ambient)},
-                        {"diffuse", shortest(scene.lighting.diffuse)},
-                        {"specular", shortest(scene.lighting.specular)},
-                        {"shininess", shortest(scene.lighting.shininess)}};
+        {"legend", scene.image.legend},
+        {"exposure", shortestDouble(scene.image.exposure)}};
+    json["lighting"] = {{"ambient", shortestDouble(scene.lighting.ambient)},
+                        {"diffuse", shortestDouble(scene.lighting.diffuse)},
+                        {"specular", shortestDouble(scene.lighting.specular)},
+                        {"shininess", shortestDouble(scene.lighting.shininess)}};
     json["transparency"] = transparencyJson(scene.transparency);
+    json["clip"] = clipJson(scene.clip);
     const Quality& quality = scene.quality;
     if (quality.pixels) json["detail"]["pixels"] = *quality.pixels;
     if (quality.errorPixels) json["detail"]["error_pixels"] = *quality.errorPixels;

@@ -272,6 +272,15 @@ void makeVertices(const IndexSpace& space, const BrickRecord& record, const Bric
     }
 }
 
+EdgeVertices::EdgeVertices(const std::array<const BrickRecord*, 8>& neighbours) {
+    expandVertices(neighbours, indices_);
+}
+
+std::uint32_t EdgeVertices::at(glm::ivec3 cell, int edge) const {
+    static constexpr std::array<int, kCellEdges> kEdgeSlots = makeEdgeSlots();
+    return indices_[vertexSlot(cell.x, cell.y, cell.z) + kEdgeSlots[edge]];
+}
+
 void writeTriangles(const std::array<const BrickRecord*, 8>& neighbours, bool mirrored,
                     std::span<std::uint32_t> out) {
     static constexpr std::array<int, kCellEdges> kEdgeSlots = makeEdgeSlots();

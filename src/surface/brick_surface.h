@@ -51,6 +51,20 @@ void classifyBrick(const IndexSpace& space, glm::ivec3 brick, const BrickField& 
 void makeVertices(const IndexSpace& space, const BrickRecord& record, const BrickField& field,
                   const BrickField* heights, float iso, VertexBuffer& out);
 
+/// Mesh indices of the vertices on the edges of one brick's cells.
+class EdgeVertices {
+  public:
+    /// `neighbours` as for `writeTriangles`; a null `neighbours[0]` is a brick without vertices of its own.
+    explicit EdgeVertices(const std::array<const BrickRecord*, 8>& neighbours);
+
+    /// Of the vertex on edge `edge` of the cell (local, 0..7), an axis edge or the body diagonal, which must
+    /// carry one.
+    std::uint32_t at(glm::ivec3 cell, int edge) const;
+
+  private:
+    std::array<std::uint32_t, 9 * 9 * 9 * kEdgeKinds> indices_;
+};
+
 /// Writes the brick's triangles to `out` (3 * triangleCount indices). `neighbours[k]` is the record of
 /// the next brick along x (bit 0 of k), y (bit 1), z (bit 2), or null where the surface does not touch
 /// it; `neighbours[0]` is the brick itself.

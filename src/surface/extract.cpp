@@ -1,7 +1,9 @@
 #include "surface/extract.h"
 
+#include "base/error.h"
 #include "basis/parallel.h"
 #include "surface/brick_surface.h"
+#include "surface/clip_mesh.h"
 #include "surface/extract_view.h"
 
 #include <algorithm>
@@ -46,6 +48,7 @@ struct Selection {
 Selection selectBricks(const IndexSpace& space, const TimedField& field, const ExtractOptions& options) {
     const std::size_t rows = static_cast<std::size_t>(space.bricks.y) * space.bricks.z;
     const std::size_t rowsPerTask = std::max<std::size_t>(1, kBricksPerRangeTask / space.bricks.x);
+    const ClipTest clip(space, options.clip);
     std::vector<Selection> parts((rows + rowsPerTask - 1) / rowsPerTask);
     std::vector<std::uint32_t> rowCount(rows + 1);
     const glm::ivec3 storedBricks = field.a->brickDims();
@@ -61,7 +64,7 @@ Selection selectBricks(const IndexSpace& space, const TimedField& field, const E
                 const ValueRange range = rangeInTime(field, field.a->linear(brick));
                 if (!(range.min <= range.max)) continue;
                 part.range = {std::min(part.range.min, range.min), std::max(part.range.max, range.max)};
-                if (range.min <= options.iso && options.iso <= range.max) {
+                if (range.min <= options.iso && options.iso <= range.max && !clip.skips({x, y, z})) {
                     part.bricks.push_back(static_cast<std::uint32_t>(row * space.bricks.x + x));
                 }
             }
@@ -144,9 +147,8 @@ void scan(std::vector<BrickRecord>& records, SurfaceMesh& mesh) {
 }
 
 std::array<const BrickRecord*, 8> findNeighbours(const IndexSpace& space, const Selection& selection,
-                                                 const std::vector<BrickRecord>& records, std::size_t own) {
+                                                 const std::vector<BrickRecord>& records, glm::ivec3 brick) {
     std::array<const BrickRecord*, 8> neighbours{};
-    const glm::ivec3 brick = records[own].brick;
     const auto& bricks = selection.bricks;
     for (int yz = 0; yz < 4; ++yz) {
         const int y = brick.y + (yz & 1);
@@ -166,6 +168,7 @@ std::array<const BrickRecord*, 8> findNeighbours(const IndexSpace& space, const 
 void writeMesh(const IndexSpace& space, const ExtractOptions& options, const Selection& selection,
                const std::vector<BrickRecord>& records, const std::vector<VertexBuffer>& buffers,
                SurfaceMesh& mesh) {
+    const ClipTest clip(space, options.clip);
     parallelFor(records.size(), kBricksPerTask, options.threads, [&](std::size_t begin, std::size_t end) {
         const VertexBuffer& buffer = buffers[begin / kBricksPerTask];
         const std::uint32_t firstVertex = records[begin].firstVertex;
@@ -175,8 +178,11 @@ void writeMesh(const IndexSpace& space, const ExtractOptions& options, const Sel
             const std::size_t firstIndex = std::size_t{3} * records[i].firstTriangle;
             const std::span<std::uint32_t> out(mesh.triangles.data() + firstIndex,
                                                3u * records[i].triangleCount);
-            if (!out.empty())
-                writeTriangles(findNeighbours(space, selection, records, i), space.mirrored, out);
+            // Of a brick that is clipped away only the vertices are used, by the bricks before it.
+            const glm::ivec3 low = records[i].brick * kBrickSize;
+            if (!out.empty() && clip.fate(low, low + kBrickSize) != ClipFate::gone)
+                writeTriangles(findNeighbours(space, selection, records, records[i].brick), space.mirrored,
+                               out);
         }
     });
 }
@@ -185,8 +191,13 @@ void writeMesh(const IndexSpace& space, const ExtractOptions& options, const Sel
 
 Extraction extractSurface(const Lattice& lattice, const TimedField& field, const ExtractOptions& options) {
     requireHeights(lattice, field);
+    const bool isCut = !options.clip.empty() || options.closed;
+    if (isCut && lattice.heights) {
+        throw Error("a lattice whose samples have heights of their own cannot be clipped or closed yet",
+                    "clipping", "remove the clip planes and the closed boundary");
+    }
     const bool wantsDetail = options.view && options.view->wantsDetail();
-    if (wantsDetail && !lattice.heights) return extractForView(lattice, field, options);
+    if (wantsDetail && !lattice.heights && !isCut) return extractForView(lattice, field, options);
     const IndexSpace space(lattice);
     const Selection selection = selectBricks(space, field, options);
     Extraction result;
@@ -201,6 +212,10 @@ Extraction extractSurface(const Lattice& lattice, const TimedField& field, const
     for (const BrickRecord& record : records) result.stats.lostCells += record.lostCells;
     scan(records, result.mesh);
     writeMesh(space, options, selection, records, buffers, result.mesh);
+    if (isCut) {
+        const auto find = [&](glm::ivec3 brick) { return findNeighbours(space, selection, records, brick); };
+        clipMesh(space, field, options, records, find, result);
+    }
     return result;
 }
 

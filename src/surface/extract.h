@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mesh/surface_mesh.h"
+#include "surface/clip.h"
 #include "surface/view.h"
 #include "volume/key_frame.h"
 #include "volume/lattice.h"
@@ -8,6 +9,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace isoglass {
 
@@ -26,6 +28,11 @@ struct ExtractOptions {
     /// where the lattice has heights.
     std::optional<View> view = {};
     int threads = 0;  ///< 0 takes all cores; the mesh does not depend on it
+    /// What lies behind any of these is cut off. Bricks wholly behind one are not looked at. A mesh that is
+    /// clipped or `closed` has full resolution, whatever the view wants. Error where the lattice has heights.
+    std::vector<CutPlane> clip = {};
+    /// Caps what is inside where the domain ends, along axes that are not periodic.
+    bool closed = false;
 };
 
 struct ExtractStats {
@@ -41,19 +48,29 @@ struct ExtractStats {
 struct Extraction {
     SurfaceMesh mesh;
     ExtractStats stats;
+    /// What is inside on the cuts of `clip` and, for `closed`, at the domain's end: flat triangles with
+    /// normals away from what is kept. Vertices are its own, because the surface's normals are others.
+    SurfaceMesh caps{};
+    /// For each vertex of `caps`: the vertex of `mesh` at the same place, bit by bit, or for points that are
+    /// not on the surface a number from `mesh.vertexCount()` on. Equal numbers are the same point.
+    std::vector<std::uint32_t> capIdentity{};
 };
+
+/// Surface and caps as one mesh, joined by identity: closed where `clip` caps all its planes, the domain's
+/// end is `closed` and no sample is missing.
+SurfaceMesh joinCaps(const Extraction& extraction);
 
 /// Extracts one iso-surface at full resolution by compact Kuhn cells: the six
 /// tetrahedra of a cell decide the topology, the vertices lie on axis edges.
 ///
 /// A vertex stands for one lattice edge, so the mesh is an oriented 2-manifold by vertex index whatever
-/// the samples are; its boundary lies where the domain ends or samples are missing. One exception: where
-/// of the four cells around an edge only two opposite ones have all samples, two fans share the edge's
-/// vertex: still a manifold by edge. Positions are world coordinates by the axis tables of `lattice`, or by
-/// the heights that the key frames bring where it has them, linear in time like the field; normals
-/// come from central differences in world space (one-sided beside the domain's end and missing samples).
-/// Zero-area triangles, where samples equal the iso-value, stay. Cost follows the bricks that the surface
-/// touches.
+/// the samples are; its boundary lies where the domain ends or samples are missing or a plane clips. One
+/// exception: where of the four cells around an edge only two opposite ones have all samples, two fans share
+/// the edge's vertex: still a manifold by edge. Positions are world coordinates by the axis tables of
+/// `lattice`, or by the heights that the key frames bring where it has them, linear in time like the field;
+/// normals come from central differences in world space (one-sided beside the domain's end and missing
+/// samples). Zero-area triangles, where samples equal the iso-value, stay. Cost follows the bricks that the
+/// surface touches.
 ///
 /// Pure: any number of calls may run at once. The same arguments give the same bytes for any `threads`.
 /// Both key frames must be of `lattice`, and have heights where it has them.

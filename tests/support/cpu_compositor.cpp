@@ -27,6 +27,13 @@ std::optional<TriangleHit> intersectTriangle(const Ray& ray, const std::array<gl
     return TriangleHit{distance, determinant < 0, {1 - u - v, u, v}};
 }
 
+double opacityOf(const SurfaceDraw& draw, const glm::dvec3& gradient, const glm::dvec3& view) {
+    if (!draw.shell) return draw.opacity;
+    const double length = glm::length(gradient);
+    const double cosine = length > 0 ? glm::dot(gradient / length, view) : 0;
+    return std::min(shellOpacity(*draw.shell, cosine, length), std::nextafter(1.0, 0.0));
+}
+
 Ray pixelRay(const CameraView& camera, double x, double y) {
     const ViewAxes axes = viewAxes(camera);
     const double tangent = std::tan(glm::radians(camera.fovDegrees) / 2);

@@ -53,6 +53,10 @@ glm::dvec3 compose(const std::vector<Fragment>& fragments, const glm::dvec3& bac
 glm::dvec3 shade(const glm::dvec3& color, const glm::dvec3& normal, const glm::dvec3& toEye,
                  const Lighting& lighting);
 
+/// Opacity of a fragment by the draw's model. `gradient` is the field's, in the world; below 1 for every
+/// shell, because it is drawn among the semi-transparent surfaces whatever its opacity.
+double opacityOf(const SurfaceDraw& draw, const glm::dvec3& gradient, const glm::dvec3& view);
+
 /// A surface that the ground truth draws: its mesh and how the frame shows it.
 struct TruthSurface {
     SurfaceMesh mesh;

@@ -105,10 +105,10 @@ class RowTracer {
             glm::dvec3 normal(0);
             for (int i = 0; i < 3; ++i) normal += hit->barycentric[i] * triangle->normal[i];
             const SurfaceDraw& draw = surfaces_[triangle->surface].draw;
-            traced.push_back(
-                {{hit->distance, hit->backFace != triangle->mirrored, triangle->surface,
-                  shade(draw.color, normal, -ray.direction, frame_.lighting), draw.opacity, triangle->index},
-                 triangle->vertex});
+            traced.push_back({{hit->distance, hit->backFace != triangle->mirrored, triangle->surface,
+                               shade(draw.color, normal, -ray.direction, frame_.lighting),
+                               opacityOf(draw, normal, ray.direction), triangle->index},
+                              triangle->vertex});
         }
         std::ranges::stable_sort(traced, {}, [](const auto& t) { return t.fragment.distance; });
         std::vector<Fragment> fragments;

@@ -2,6 +2,8 @@
 
 #include "gl/headless_context.h"
 
+#include <algorithm>
+
 namespace isoglass {
 
 RenderLoop::RenderLoop(const Scene& scene, Pace pace, RenderInbox& inbox, Hooks hooks)
@@ -80,6 +82,42 @@ RenderView sceneView(const Scene& scene) {
     return {.camera = scene.camera.poseAt(0), .size = scene.image.size};
 }
 
+namespace {
+
+LegendBar barOf(const FieldColor& color) {
+    return {color.map, color.low, color.high};
+}
+
+/// Every different bar once.
+std::vector<LegendBar> legendBars(const Scene& scene) {
+    std::vector<LegendBar> bars;
+    for (const Volume& volume : scene.volumes) {
+        for (const Surface& surface : volume.surfaces) {
+            if (!surface.fieldColor) continue;
+            const LegendBar bar = barOf(*surface.fieldColor);
+            if (std::ranges::find(bars, bar) == bars.end()) bars.push_back(bar);
+        }
+    }
+    return bars;
+}
+
+/// A cap is as opaque as its surface seen from straight above. Where the caps of nested surfaces lie in one
+/// plane the inner one is in front.
+void makeCap(const Volume& volume, const Surface& surface, SurfaceDraw& draw) {
+    if (draw.shell) {
+        draw.opacity = static_cast<float>(shellOpacity(*draw.shell, 1, 0));
+        draw.shell.reset();
+    }
+    for (const Surface& other : volume.surfaces) {
+        if (other.inside != surface.inside) continue;
+        const bool isInner =
+            surface.inside == Inside::above ? surface.iso > other.iso : surface.iso < other.iso;
+        if (isInner) ++draw.depthRank;
+    }
+}
+
+}  // namespace
+
 std::vector<SurfaceDraw> surfaceDraws(const Scene& scene, const SceneMeshes& meshes) {
     std::vector<SurfaceDraw> draws;
     for (const ExtractedSurface& extracted : meshes.surfaces) {
@@ -89,6 +127,9 @@ std::vector<SurfaceDraw> surfaceDraws(const Scene& scene, const SceneMeshes& mes
         draw.worldFromSeries = worldFromSeries(volume.place);
         draw.color = surface.color;
         draw.opacity = surface.opacity;
+        if (surface.shell) draw.shell = prepareShell(*surface.shell);
+        if (surface.fieldColor) draw.colorBar = barOf(*surface.fieldColor);
+        if (extracted.caps) makeCap(volume, surface, draw);
         draws.push_back(draw);
     }
     return draws;
@@ -108,6 +149,7 @@ FrameDescription describeFrame(const Scene& scene, const RenderView& view) {
     frame.samples = scene.image.samples;
     frame.wireframe = view.wireframe;
     frame.keepLinear = false;
+    if (scene.image.legend) frame.overlays = makeLegend(legendBars(scene), view.size, scene.image.background);
     return frame;
 }
 

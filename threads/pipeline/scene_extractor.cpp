@@ -1,9 +1,12 @@
 #include "pipeline/scene_extractor.h"
 
+#include "surface/vertex_values.h"
+
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace isoglass {
@@ -12,6 +15,29 @@ namespace {
 
 /// Steps into which what is left of the timeline is cut to find the key frames ahead.
 constexpr int kLookAheadSteps = 64;
+
+/// The planes that cut a volume, in its own coordinates.
+std::vector<CutPlane> cutPlanes(const Scene& scene, const Volume& volume) {
+    std::vector<CutPlane> planes;
+    for (const ClipPlane& clip : volume.clip) planes.push_back({clip.plane, clip.cap});
+    // plane . (M p) = (M^T plane) . p
+    const glm::dmat4 seriesFromWorld = glm::transpose(worldFromSeries(volume.place));
+    for (const ClipPlane& clip : scene.clip) planes.push_back({seriesFromWorld * clip.plane, clip.cap});
+    return planes;
+}
+
+/// Whether one plane alone leaves nothing of a box.
+bool isCutOff(const std::array<glm::dvec3, 2>& box, const std::vector<CutPlane>& planes) {
+    return std::ranges::any_of(planes, [&box](const CutPlane& plane) {
+        glm::dvec3 farthest;
+        for (int k = 0; k < 3; ++k) farthest[k] = box[plane.plane[k] > 0 ? 1 : 0][k];
+        return plane.distance(farthest) < 0;
+    });
+}
+
+TimeSample sampleOf(const PlayedSeries& played, double position) {
+    return locate(played.file->description().time, played.timeAt(position));
+}
 
 }  // namespace
 
@@ -22,6 +48,19 @@ SceneExtractor::SceneExtractor(const Scene& scene, Options options) : scene_(sce
         checkGrid(volume, files.back()->description());
         series_.push_back(playSeries(volume, scene_.time, files.back()));
     }
+    for (std::size_t v = 0; v < scene_.volumes.size(); ++v) {
+        const Volume& volume = scene_.volumes[v];
+        for (std::size_t s = 0; s < volume.surfaces.size(); ++s) {
+            const auto& color = volume.surfaces[s].fieldColor;
+            if (!color || color->by != FieldColor::By::series) continue;
+            Volume source;
+            source.name = volume.name;
+            source.series = color->series;
+            source.time = volume.time;
+            files.push_back(openSeries(source));
+            colorSeries_.push_back({v, s, playSeries(source, scene_.time, files.back())});
+        }
+    }
     const auto frames =
         scene_.quality.pixels ? KeyFrameCache::Frames::withLevels : KeyFrameCache::Frames::plain;
     cache_ = std::make_unique<KeyFrameCache>(std::move(files), options_.memoryBytes, frames);
@@ -30,17 +69,18 @@ SceneExtractor::SceneExtractor(const Scene& scene, Options options) : scene_(sce
 std::vector<PlannedWork> SceneExtractor::planAt(std::size_t volume, const TimeSample& sample) const {
     VolumeState state;
     state.onKeyFrame = sample.fraction == 0;
+    state.clippedAway = isCutOff(series_[volume].file->description().lattice.bounds(),
+                                 cutPlanes(scene_, scene_.volumes[volume]));
     for (const Surface& surface : scene_.volumes[volume].surfaces) {
-        state.surfaceOpacities.push_back(surface.opacity);
+        state.surfaceOpacities.push_back(surface.shell ? 1.0f : surface.opacity);
     }
     return planVolume(state);
 }
 
-TimedField SceneExtractor::fieldAt(std::size_t volume, const TimeSample& sample,
-                                   const std::vector<PlannedWork>& work) {
+TimedField SceneExtractor::fieldAt(std::size_t series, const TimeSample& sample, bool first, bool second) {
     TimedField field;
-    if (isNeeded(work, WorkKind::firstKeyFrame)) field.a = cache_->get({volume, sample.frameA});
-    if (isNeeded(work, WorkKind::secondKeyFrame)) field.b = cache_->get({volume, sample.frameB});
+    if (first) field.a = cache_->get({series, sample.frameA});
+    if (second) field.b = cache_->get({series, sample.frameB});
     field.fraction = static_cast<float>(sample.fraction);
     return field;
 }
@@ -52,12 +92,22 @@ std::vector<FrameKey> SceneExtractor::framesAhead(double position) const {
     };
     for (int step = 0; step <= kLookAheadSteps; ++step) {
         const double at = position + (1 - position) * step / kLookAheadSteps;
+        const auto addBoth = [&](std::size_t series, const TimeSample& sample, bool first, bool second) {
+            if (first) add({series, sample.frameA});
+            if (second) add({series, sample.frameB});
+        };
+        std::vector<std::vector<PlannedWork>> works;
         for (std::size_t volume = 0; volume < series_.size(); ++volume) {
-            const TimeSample sample =
-                locate(series_[volume].file->description().time, series_[volume].timeAt(at));
-            const std::vector<PlannedWork> work = planAt(volume, sample);
-            if (isNeeded(work, WorkKind::firstKeyFrame)) add({volume, sample.frameA});
-            if (isNeeded(work, WorkKind::secondKeyFrame)) add({volume, sample.frameB});
+            const TimeSample sample = sampleOf(series_[volume], at);
+            works.push_back(planAt(volume, sample));
+            addBoth(volume, sample, isNeeded(works.back(), WorkKind::firstKeyFrame),
+                    isNeeded(works.back(), WorkKind::secondKeyFrame));
+        }
+        for (std::size_t i = 0; i < colorSeries_.size(); ++i) {
+            const ColorSeries& color = colorSeries_[i];
+            if (!isNeeded(works[color.volume], WorkKind::extraction, color.surface)) continue;
+            const TimeSample sample = sampleOf(color.played, at);
+            addBoth(series_.size() + i, sample, true, sample.fraction > 0);
         }
     }
     return keys;
@@ -72,6 +122,26 @@ View SceneExtractor::viewOf(const Volume& volume, const CameraPose& camera, int 
     return view;
 }
 
+std::vector<float> SceneExtractor::colorValues(const SurfaceMesh& mesh, const ExtractedSurface& place,
+                                               const TimedField& field, double position) {
+    switch (scene_.volumes[place.volume].surfaces[place.surface].fieldColor->by) {
+        case FieldColor::By::curvature:
+            return meanCurvature(mesh);
+        case FieldColor::By::value:
+            return sampleAtVertices(mesh, series_[place.volume].file->description().lattice, field,
+                                    options_.threads);
+        case FieldColor::By::series:
+            break;
+    }
+    std::size_t index = 0;
+    while (colorSeries_[index].volume != place.volume || colorSeries_[index].surface != place.surface)
+        ++index;
+    const PlayedSeries& source = colorSeries_[index].played;
+    const TimeSample sample = sampleOf(source, position);
+    const TimedField values = fieldAt(series_.size() + index, sample, true, sample.fraction > 0);
+    return sampleAtVertices(mesh, source.file->description().lattice, values, options_.threads);
+}
+
 SceneMeshes SceneExtractor::extract(double position, const CameraPose& camera, int imageHeight) {
     cache_->want(framesAhead(position));
     SceneMeshes result;
@@ -83,8 +153,12 @@ SceneMeshes SceneExtractor::extract(double position, const CameraPose& camera, i
         result.times.push_back(locate(series.time, time));
         result.work.push_back(planAt(v, result.times.back()));
         const std::vector<PlannedWork>& work = result.work.back();
-        const TimedField field = fieldAt(v, result.times.back(), work);
+        const TimedField field = fieldAt(v, result.times.back(), isNeeded(work, WorkKind::firstKeyFrame),
+                                         isNeeded(work, WorkKind::secondKeyFrame));
         const View view = viewOf(volume, camera, imageHeight);
+        const std::vector<CutPlane> planes = cutPlanes(scene_, volume);
+        // Caps are cut from cells of full resolution.
+        const bool isCut = !planes.empty() || volume.closed;
         for (std::size_t s = 0; s < volume.surfaces.size(); ++s) {
             const Surface& surface = volume.surfaces[s];
             if (!isNeeded(work, WorkKind::extraction, s)) {
@@ -94,10 +168,18 @@ SceneMeshes SceneExtractor::extract(double position, const CameraPose& camera, i
             Extraction extraction = extractSurface(series.lattice, field,
                                                    {.iso = static_cast<float>(surface.iso),
                                                     .insideIsBelow = surface.inside == Inside::below,
-                                                    .view = view,
-                                                    .threads = options_.threads});
-            auto mesh = std::make_shared<const SurfaceMesh>(std::move(extraction.mesh));
-            result.surfaces.push_back({v, s, std::move(mesh), extraction.stats});
+                                                    .view = isCut ? std::nullopt : std::optional(view),
+                                                    .threads = options_.threads,
+                                                    .clip = planes,
+                                                    .closed = volume.closed});
+            const auto add = [&](SurfaceMesh mesh, const ExtractStats& stats, bool caps) {
+                ExtractedSurface extracted{v, s, nullptr, stats, caps};
+                if (surface.fieldColor) mesh.colorValues = colorValues(mesh, extracted, field, position);
+                extracted.mesh = std::make_shared<const SurfaceMesh>(std::move(mesh));
+                result.surfaces.push_back(std::move(extracted));
+            };
+            add(std::move(extraction.mesh), extraction.stats, false);
+            if (!extraction.caps.empty()) add(std::move(extraction.caps), {}, true);
         }
     }
     return result;

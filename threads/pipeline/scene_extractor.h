@@ -22,6 +22,7 @@ struct ExtractedSurface {
     std::size_t surface = 0;                  ///< index into its `surfaces`
     std::shared_ptr<const SurfaceMesh> mesh;  ///< empty where the plan leaves its extraction out
     ExtractStats stats;
+    bool caps = false;  ///< what fills the surface's cuts; comes after the surface, where there are cuts
 };
 
 /// All surfaces of the scene at one moment, in the order of the scene. Always whole.
@@ -50,19 +51,33 @@ class SceneExtractor {
     /// `camera` of `imageHeight` pixels. Key frames ahead are read while this works.
     SceneMeshes extract(double position, const CameraPose& camera, int imageHeight);
 
+    /// Moves the scene's planes (world coordinates) for the calls of `extract` that follow.
+    void setClip(std::vector<ClipPlane> planes) { scene_.clip = std::move(planes); }
+
     /// One a volume, in the order of the scene.
     const std::vector<PlayedSeries>& series() const { return series_; }
     const KeyFrameCache& cache() const { return *cache_; }
 
   private:
-    TimedField fieldAt(std::size_t volume, const TimeSample& sample, const std::vector<PlannedWork>& work);
+    /// A series that colours a surface.
+    struct ColorSeries {
+        std::size_t volume = 0;
+        std::size_t surface = 0;
+        PlayedSeries played;
+    };
+
+    /// `series` numbers those of the volumes, then those that colour.
+    TimedField fieldAt(std::size_t series, const TimeSample& sample, bool first, bool second);
     std::vector<PlannedWork> planAt(std::size_t volume, const TimeSample& sample) const;
+    std::vector<float> colorValues(const SurfaceMesh& mesh, const ExtractedSurface& place,
+                                   const TimedField& field, double position);
     std::vector<FrameKey> framesAhead(double position) const;
     View viewOf(const Volume& volume, const CameraPose& camera, int imageHeight) const;
 
     Scene scene_;
     Options options_;
     std::vector<PlayedSeries> series_;
+    std::vector<ColorSeries> colorSeries_;
     std::unique_ptr<KeyFrameCache> cache_;
 };
 

@@ -71,7 +71,10 @@ std::vector<Surface> chooseSurfaces(const SeriesFile& file, std::vector<std::str
     std::vector<Surface> surfaces;
     for (const SuggestedIso& value : suggestion.values) {
         const std::size_t i = surfaces.size();
-        surfaces.push_back({.iso = value.iso, .color = colors[i], .opacity = opacities[i]});
+        Surface& surface = surfaces.emplace_back();
+        surface.iso = value.iso;
+        surface.color = colors[i];
+        surface.opacity = opacities[i];
         std::string reason = "iso-value " + formatNumber(value.iso) + (series.units.empty() ? "" : " ") +
                              series.units + (i == 0 ? " (red, opaque): " : " (blue, semi-transparent): ") +
                              formatNumber(std::round(100 * value.share)) + " % of the samples reach it";

@@ -38,18 +38,18 @@ void box(const std::string& text, ImU32 ink, glm::vec2 pivot, glm::vec2 picture,
 
 }  // namespace
 
-Overlay::Overlay(float scale) : scale_(scale) {
+TextOverlay::TextOverlay(float scale) : scale_(scale) {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
     ImGui_ImplOpenGL3_Init("#version 450 core");
 }
 
-Overlay::~Overlay() {
+TextOverlay::~TextOverlay() {
     ImGui_ImplOpenGL3_Shutdown();
     ImGui::DestroyContext();
 }
 
-void Overlay::draw(const OverlayText& text, glm::ivec2 size) {
+void TextOverlay::draw(const OverlayText& text, glm::ivec2 size) {
     if (text.empty()) return;
     const glm::vec2 picture(size);
     ImGui::GetIO().DisplaySize = {picture.x, picture.y};

@@ -21,13 +21,13 @@ struct OverlayText {
 ///
 /// One at a time; made, used and destroyed by the render thread while the window's context is current. GL's
 /// state is afterwards as it was.
-class Overlay {
+class TextOverlay {
   public:
     /// `scale` is that of the text: pixels to a screen coordinate.
-    explicit Overlay(float scale);
-    ~Overlay();
-    Overlay(const Overlay&) = delete;
-    Overlay& operator=(const Overlay&) = delete;
+    explicit TextOverlay(float scale);
+    ~TextOverlay();
+    TextOverlay(const TextOverlay&) = delete;
+    TextOverlay& operator=(const TextOverlay&) = delete;
 
     /// Draws into framebuffer 0, which is `size` pixels large.
     void draw(const OverlayText& text, glm::ivec2 size);

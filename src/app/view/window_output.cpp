@@ -19,7 +19,7 @@ std::string reasonOf(const std::exception_ptr& failure) {
 /// The window as the render loop's context, and what is written over its picture.
 struct WindowOutput::Target final : gl::CurrentContext {
     gl::WindowContext window;
-    Overlay overlay;
+    TextOverlay overlay;
 
     Target(gl::Window& shownIn, float scale) : window(shownIn), overlay(scale) {}
     gl::Context& context() override { return window.context(); }

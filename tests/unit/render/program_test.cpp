@@ -102,6 +102,11 @@ TEST_F(ProgramTest, UniformLayoutsAreThoseOfTheMirrors) {
     expectOffset(surface, "eyeFromMesh", offsetof(DrawUniforms, eyeFromMesh));
     expectOffset(surface, "normalFromMesh", offsetof(DrawUniforms, normalFromMesh));
     expectOffset(surface, "colorOpacity", offsetof(DrawUniforms, colorOpacity));
+    expectOffset(surface, "opacityModel", offsetof(DrawUniforms, opacityModel));
+    expectOffset(surface, "gradientScale", offsetof(DrawUniforms, gradientScale));
+    expectOffset(surface, "depthScale", offsetof(DrawUniforms, depthScale));
+    expectOffset(surface, "colorScale", offsetof(DrawUniforms, colorScale));
+    expectBlock(surface, "ColorMap", ColorMapUniforms::kBinding, sizeof(ColorMapUniforms));
     EXPECT_EQ(memberProperty(surface, "normalFromMesh", GL_MATRIX_STRIDE),
               static_cast<GLint>(sizeof(DrawUniforms::normalFromMesh[0])));
 

@@ -20,19 +20,30 @@ constexpr const char* kFull = R"({
     "volumes": [
         {"name": "storm", "series": "../data/storm.vdb", "grid": "qcloud",
          "place": {"translate": [1, 2, 3], "rotate": [0, 1, 0, 45], "scale": [1, 2, -3]},
-         "time": {"offset": 5, "scale": -2}, "boundary": "open", "clip": [],
+         "time": {"offset": 5, "scale": -2}, "boundary": "closed",
+         "clip": [{"plane": [1, 2, 3, 4]}, {"plane": [0, 0, -1, 2], "cap": false}],
          "surfaces": [{"iso": 0.5, "inside": "below", "color": "#E04030", "opacity": 0.3},
-                      {"iso": -1e-3, "opacity": {"model": "constant", "opacity": 0.6}}]},
+                      {"iso": -1e-3, "opacity": {"model": "constant", "opacity": 0.6}},
+                      {"iso": 1, "opacity": {"model": "slab", "extinction": 2, "thickness": 0.1}},
+                      {"iso": 2, "opacity": {"model": "slab", "extinction": 2, "iso_width": 0.3,
+                                             "max_thickness": 4}},
+                      {"iso": 3, "opacity": {"model": "cosine", "extinction": 10, "thickness": 0.05,
+                                             "power": 0.607}},
+                      {"iso": 5, "color": {"by": "series", "series": "../data/heat.vdb", "map": "cet-l3",
+                                           "range": [-2, 30]}},
+                      {"iso": 6, "color": {"by": "curvature", "map": "cet-d1", "range": [-1, 1]}},
+                      {"iso": 7, "color": {"by": "value", "range": [9, 3]}},
+                      {"iso": 4, "opacity": {"model": "iso-spectrum", "extinction": 10, "thickness": 0.05}}]},
         {"series": "/data/other.vdb", "surfaces": [{"iso": 7}]}],
     "time": {"from": "0000-01-16", "to": "0000-12-16T12:00", "duration": 12.5, "fps": 30},
     "camera": {"eye": [9, 8, 7], "target": [1, 1, 1], "up": [0, 1, 0], "fov": 40,
                "path": [{"at": 1, "eye": [5, 5, 5]}, {"at": 2.5, "target": [0, 0, 0.1]}]},
-    "image": {"size": [640, 480], "background": "#ffffff", "samples": 4, "exposure": 1.1},
+    "image": {"size": [640, 480], "background": "#ffffff", "samples": 4, "legend": false, "exposure": 1.1},
     "lighting": {"ambient": 0.1, "diffuse": 0.8, "specular": 0.2, "shininess": 20},
     "transparency": {"method": "peel", "layers": 7, "reproducible": true},
     "detail": {"error_pixels": 0.5},
     "quality": {"frame_ms": 40, "exact_order": true},
-    "clip": []
+    "clip": [{"plane": [0, 1, 0, -5], "cap": true}]
 })";
 
 Scene parse(std::string_view text) {
@@ -58,9 +69,23 @@ TEST(SceneFile, EveryKeyIsRead) {
     EXPECT_EQ(storm.grid, "qcloud");
     EXPECT_EQ(storm.place, (Placement{{1, 2, 3}, {0, 1, 0, 45}, {1, 2, -3}}));
     EXPECT_EQ(storm.time, (ClockMap{5, -2}));
-    ASSERT_EQ(storm.surfaces.size(), 2u);
+    EXPECT_TRUE(storm.closed);
+    EXPECT_EQ(storm.clip, (std::vector<ClipPlane>{{{1, 2, 3, 4}, true}, {{0, 0, -1, 2}, false}}));
+    EXPECT_EQ(scene.clip, (std::vector<ClipPlane>{{{0, 1, 0, -5}, true}}));
+    ASSERT_EQ(storm.surfaces.size(), 9u);
     EXPECT_EQ(storm.surfaces[0], (Surface{0.5, Inside::below, *linearFromHex("#e04030"), 0.3f}));
     EXPECT_EQ(storm.surfaces[1], (Surface{.iso = -1e-3, .opacity = 0.6f}));
+    using Model = ShellOpacity::Model;
+    EXPECT_EQ(storm.surfaces[2].shell, (ShellOpacity{Model::slab, 2, 0.1f}));
+    EXPECT_EQ(storm.surfaces[3].shell, (ShellOpacity{Model::slab, 2, 0, 0.3f, 4}));
+    EXPECT_EQ(storm.surfaces[4].shell, (ShellOpacity{Model::cosine, 10, 0.05f, 0, 0, 0.607f}));
+    EXPECT_EQ(storm.surfaces[8].shell, (ShellOpacity{Model::isoSpectrum, 10, 0.05f}));
+    using By = FieldColor::By;
+    EXPECT_EQ(storm.surfaces[5].fieldColor, (FieldColor{By::series, "data/heat.vdb", 2, -2, 30}));
+    EXPECT_EQ(storm.surfaces[6].fieldColor, (FieldColor{By::curvature, {}, 4, -1, 1}));
+    EXPECT_EQ(storm.surfaces[7].fieldColor, (FieldColor{By::value, {}, 0, 9, 3}));
+    EXPECT_FALSE(scene.image.legend);
+    for (const std::size_t i : {2u, 3u, 4u, 8u}) EXPECT_FALSE(storm.surfaces[i].opaque());
     EXPECT_EQ(scene.volumes[1].series, "/data/other.vdb");
     EXPECT_EQ(scene.time, (Timeline{"0000-01-16", "0000-12-16T12:00", 12.5, 30}));
     EXPECT_EQ(scene.camera.pose, (CameraPose{{9, 8, 7}, {1, 1, 1}}));
@@ -69,7 +94,7 @@ TEST(SceneFile, EveryKeyIsRead) {
     ASSERT_EQ(scene.camera.path.size(), 2u);
     EXPECT_EQ(scene.camera.path[0], (CameraKey{1, {{5, 5, 5}, {1, 1, 1}}}));
     EXPECT_EQ(scene.camera.path[1], (CameraKey{2.5, {{9, 8, 7}, {0, 0, 0.1}}}));
-    EXPECT_EQ(scene.image, (ImageSettings{{640, 480}, LinearColor(1), 1.1f, 4}));
+    EXPECT_EQ(scene.image, (ImageSettings{{640, 480}, LinearColor(1), 1.1f, 4, 1, false}));
     EXPECT_EQ(scene.lighting, (Lighting{0.1f, 0.8f, 0.2f, 20}));
     EXPECT_EQ(scene.transparency, (Transparency{TransparencyMethod::peel, 7, true}));
     EXPECT_EQ(scene.quality, (Quality{std::nullopt, 0.5, 40, true}));
