@@ -13,7 +13,7 @@
 namespace isoglass {
 namespace {
 
-constexpr double kSmallestNearShare = 1e-6;
+constexpr double kSmallestNearShare = 1e-9;
 
 bool isFinite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);

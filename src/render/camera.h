@@ -42,7 +42,7 @@ struct Bounds {
 Bounds transformed(const glm::dmat4& toFromBox, const Bounds& box);
 
 /// Distance of the near plane along the view axis: as far as it can be without cutting what is drawn
-/// inside the view, but at least 1e-6 of the farthest point's distance. 1 where nothing is drawn. It does
+/// inside the view, but at least 1e-9 of the farthest point's distance. 1 where nothing is drawn. It does
 /// not depend on where the eye looks.
 double nearDistance(const CameraView& camera, const std::optional<Bounds>& drawnWorld);
 

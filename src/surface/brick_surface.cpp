@@ -4,6 +4,7 @@
 #include "surface/cell_table.h"
 #include "surface/height_vertex.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -109,6 +110,18 @@ class Validity {
         }
     }
 
+    /// Bit z: of the four cells around the axis edge only two opposite ones have all their samples.
+    std::uint32_t pinched(int x, int y, int kind) const {
+        switch (kind) {
+            case 0:
+                return opposite(at(x, y - 1), at(x, y - 1) >> 1, at(x, y), at(x, y) >> 1);
+            case 1:
+                return opposite(at(x - 1, y), at(x - 1, y) >> 1, at(x, y), at(x, y) >> 1);
+            default:
+                return opposite(at(x - 1, y - 1), at(x - 1, y), at(x, y - 1), at(x, y)) >> 1;
+        }
+    }
+
     /// Bit z: cell (x, y, z) lacks a sample, and those it has lie on both sides. `inside` as in the record.
     std::uint32_t lost(const CellRows& inside, int x, int y) const {
         CellRows in = cellRows(samples_, kSamples, x + 1, y + 1);
@@ -125,6 +138,10 @@ class Validity {
     static constexpr int kCells = kBrickSize + 1;    // -1 .. 7
 
     std::uint32_t at(int x, int y) const { return cells_[(x + 1) * kCells + y + 1]; }
+    /// Of four cells around an edge, `a` lies opposite `d`.
+    static std::uint32_t opposite(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+        return (a & d & ~b & ~c) | (b & c & ~a & ~d);
+    }
     /// From cells z-1 (bit z) and z (bit z+1) to bit z.
     static std::uint32_t across(std::uint32_t cells) { return (cells | cells >> 1) & 0xff; }
 
@@ -166,6 +183,12 @@ void dropInvalid(const Validity& validity, BrickRecord& record) {
             record.cells[row] &= static_cast<std::uint8_t>(validity.cells(x, y));
             for (int kind = 0; kind < 3; ++kind) {
                 record.edges[row][kind] &= static_cast<std::uint8_t>(validity.edges(x, y, kind));
+                for (std::uint32_t edges = record.edges[row][kind] & validity.pinched(x, y, kind); edges;
+                     edges &= edges - 1) {
+                    record.pinched.push_back({static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y),
+                                              static_cast<std::uint8_t>(std::countr_zero(edges)),
+                                              static_cast<std::uint8_t>(kind)});
+                }
             }
         }
     }
@@ -187,12 +210,12 @@ void count(BrickRecord& record) {
         record.rowStart[row] = static_cast<std::uint16_t>(vertices);
         vertices += std::popcount(std::bit_cast<std::uint32_t>(record.edges[row]));
     }
-    record.vertexCount = static_cast<std::uint16_t>(vertices);
+    record.vertexCount = static_cast<std::uint16_t>(vertices + record.pinched.size());
     record.triangleCount = static_cast<std::uint16_t>(triangles);
 }
 
-/// Mesh indices of the vertices at local samples 0 .. 8, by edge kind.
-using VertexIndices = std::array<std::uint32_t, kCorners * kCorners * kCorners * kEdgeKinds>;
+/// Half of `EdgeVertices::indices_`.
+constexpr std::size_t kVertexSlots = std::size_t{kCorners} * kCorners * kCorners * kEdgeKinds;
 
 constexpr int vertexSlot(int x, int y, int z) {
     return ((x * kCorners + y) * kCorners + z) * kEdgeKinds;
@@ -200,7 +223,7 @@ constexpr int vertexSlot(int x, int y, int z) {
 
 /// Notes the indices of the vertices of one row of `owner`, those at the z whose bits are set in `keep`.
 void expandRow(const BrickRecord& owner, int x, int y, int firstZ, std::uint32_t keep,
-               VertexIndices& indices) {
+               std::uint32_t* indices) {
     const int row = (x % kBrickSize) * kBrickSize + y % kBrickSize;
     if (!(std::bit_cast<std::uint32_t>(owner.edges[row]) & keep * 0x01010101u)) return;
     std::uint32_t index = owner.firstVertex + owner.rowStart[row];
@@ -212,7 +235,7 @@ void expandRow(const BrickRecord& owner, int x, int y, int firstZ, std::uint32_t
     }
 }
 
-void expandVertices(const std::array<const BrickRecord*, 8>& neighbours, VertexIndices& indices) {
+void expandVertices(const std::array<const BrickRecord*, 8>& neighbours, std::uint32_t* indices) {
     for (int x = 0; x < kCorners; ++x) {
         for (int y = 0; y < kCorners; ++y) {
             const int column = (x == kBrickSize ? 1 : 0) | (y == kBrickSize ? 2 : 0);
@@ -222,8 +245,27 @@ void expandVertices(const std::array<const BrickRecord*, 8>& neighbours, VertexI
     }
 }
 
-/// Places of a cell's 12 axis edges and its body diagonal in `VertexIndices`, relative to the cell.
-constexpr std::array<int, kCellEdges> makeEdgeSlots() {
+/// Fills the second half of the indices: as the first, but for pinched edges.
+void expandPinched(const std::array<const BrickRecord*, 8>& neighbours, std::uint32_t* second) {
+    expandVertices(neighbours, second);
+    for (int k = 0; k < 8; ++k) {
+        if (!neighbours[k]) continue;
+        const BrickRecord& owner = *neighbours[k];
+        auto index = static_cast<std::uint32_t>(owner.firstVertex + owner.vertexCount - owner.pinched.size());
+        for (const PinchedEdge& edge : owner.pinched) {
+            const int x = edge.x + (k & 1 ? kBrickSize : 0);
+            const int y = edge.y + (k & 2 ? kBrickSize : 0);
+            const int z = edge.z + (k & 4 ? kBrickSize : 0);
+            if (std::max({x, y, z}) < kCorners) second[vertexSlot(x, y, z) + edge.kind] = index;
+            ++index;
+        }
+    }
+}
+
+/// Places of a cell's 12 axis edges and its body diagonal among the indices, relative to the cell. Around an
+/// axis edge, cells that lie before it along the first of the other two axes take the second half where
+/// `pinched`: of two opposite cells, one does.
+constexpr std::array<int, kCellEdges> makeEdgeSlots(bool pinched) {
     constexpr std::array<int, kCellEdges> kFirstCorner = {0, 2, 4, 6, 0, 1, 4, 5, 0, 1,
                                                           2, 3, 0, 0, 0, 0, 0, 0, 0};
     std::array<int, kCellEdges> slots{};
@@ -231,6 +273,8 @@ constexpr std::array<int, kCellEdges> makeEdgeSlots() {
         const int corner = kFirstCorner[edge];
         const int kind = edge < kAxisEdges ? edge / 4 : 3;
         slots[edge] = vertexSlot(corner & 1, corner >> 1 & 1, corner >> 2) + kind;
+        const bool before = edge < kAxisEdges && corner >> (kind == 0 ? 1 : 0) & 1;
+        if (pinched && before) slots[edge] += kVertexSlots;
     }
     return slots;
 }
@@ -246,6 +290,8 @@ void makeAllVertices(const BrickRecord& record, const Maker& maker, VertexBuffer
             }
         }
     }
+    for (const PinchedEdge& edge : record.pinched)
+        maker.make({edge.x, edge.y, edge.z}, kDirections[edge.kind], out);
 }
 
 }  // namespace
@@ -254,6 +300,7 @@ void classifyBrick(const IndexSpace& space, glm::ivec3 brick, const BrickField& 
                    BrickRecord& record) {
     record.brick = brick;
     record.lostCells = 0;
+    record.pinched.clear();
     markInside(field, iso, record);
     markCrossings(record);
     bool whole = field.complete;
@@ -273,21 +320,25 @@ void makeVertices(const IndexSpace& space, const BrickRecord& record, const Bric
 }
 
 EdgeVertices::EdgeVertices(const std::array<const BrickRecord*, 8>& neighbours) {
-    expandVertices(neighbours, indices_);
+    static constexpr std::array<int, kCellEdges> kPlainSlots = makeEdgeSlots(false);
+    static constexpr std::array<int, kCellEdges> kPinchedSlots = makeEdgeSlots(true);
+    expandVertices(neighbours, indices_.data());
+    const bool pinched = std::ranges::any_of(
+        neighbours, [](const BrickRecord* owner) { return owner && !owner->pinched.empty(); });
+    if (pinched) expandPinched(neighbours, indices_.data() + kVertexSlots);
+    edgeSlots_ = pinched ? kPinchedSlots.data() : kPlainSlots.data();
 }
 
 std::uint32_t EdgeVertices::at(glm::ivec3 cell, int edge) const {
-    static constexpr std::array<int, kCellEdges> kEdgeSlots = makeEdgeSlots();
-    return indices_[vertexSlot(cell.x, cell.y, cell.z) + kEdgeSlots[edge]];
+    return indices_[vertexSlot(cell.x, cell.y, cell.z) + edgeSlots_[edge]];
 }
 
 void writeTriangles(const std::array<const BrickRecord*, 8>& neighbours, bool mirrored,
                     std::span<std::uint32_t> out) {
-    static constexpr std::array<int, kCellEdges> kEdgeSlots = makeEdgeSlots();
     const FlatTable& table = flatTable();
     const BrickRecord& record = *neighbours[0];
-    VertexIndices indices;
-    expandVertices(neighbours, indices);
+    const EdgeVertices vertices(neighbours);
+    const int* edgeSlots = vertices.edgeSlots_;
     std::size_t place = 0;
     for (int row = 0; row < kBrickSize * kBrickSize; ++row) {
         const int x = row / kBrickSize;
@@ -296,12 +347,12 @@ void writeTriangles(const std::array<const BrickRecord*, 8>& neighbours, bool mi
         for (std::uint32_t cells = record.cells[row]; cells; cells &= cells - 1) {
             const int z = std::countr_zero(cells);
             const int pattern = rows.pattern(z);
-            const std::uint32_t* cell = &indices[vertexSlot(x, y, z)];
+            const std::uint32_t* cell = &vertices.indices_[vertexSlot(x, y, z)];
             const auto& edges = table.edges[pattern];
             for (int t = 0; t < 3 * table.triangles[pattern]; t += 3) {
-                out[place++] = cell[kEdgeSlots[edges[t]]];
-                out[place++] = cell[kEdgeSlots[edges[t + (mirrored ? 2 : 1)]]];
-                out[place++] = cell[kEdgeSlots[edges[t + (mirrored ? 1 : 2)]]];
+                out[place++] = cell[edgeSlots[edges[t]]];
+                out[place++] = cell[edgeSlots[edges[t + (mirrored ? 2 : 1)]]];
+                out[place++] = cell[edgeSlots[edges[t + (mirrored ? 1 : 2)]]];
             }
         }
     }

@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace isoglass {
@@ -67,9 +68,12 @@ glm::vec3 edgeBlendedNormal(glm::vec3 lowGradient, glm::vec3 highGradient, const
 }
 
 glm::vec3 edgeNormal(double difference, glm::dvec3 edge) {
-    const glm::vec3 normal(edge * (-difference / glm::dot(edge, edge)));
+    // Scaled first: the square of a length may be no double where the length is one.
+    const double largest = std::max({std::abs(edge.x), std::abs(edge.y), std::abs(edge.z)});
+    const glm::dvec3 scaled = edge / largest;
+    const glm::vec3 normal(scaled * (-difference / (largest * glm::dot(scaled, scaled))));
     if (usable(normal)) return normal;
-    return glm::vec3(glm::normalize(edge) * (difference > 0 ? -1.0 : 1.0));
+    return glm::vec3(glm::normalize(scaled) * (difference > 0 ? -1.0 : 1.0));
 }
 
 }  // namespace isoglass

@@ -148,7 +148,10 @@ bool shareFace(std::uint8_t a, std::uint8_t b) {
 std::int8_t findApex(const std::vector<CellCase::Row>& rows) {
     std::map<std::uint8_t, std::uint8_t> next;
     for (const CellCase::Row& row : rows) next[row.p] = row.q;
-    for (const auto& [candidate, follower] : next) {
+    for (const auto& link : next) {
+        // Clang 14 cannot capture structured bindings.
+        const std::uint8_t candidate = link.first;
+        const std::uint8_t follower = link.second;
         const bool clear = std::all_of(next.begin(), next.end(), [&](const auto& other) {
             const bool chord =
                 other.first != candidate && other.first != follower && other.second != candidate;

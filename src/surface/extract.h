@@ -64,13 +64,12 @@ SurfaceMesh joinCaps(const Extraction& extraction);
 /// tetrahedra of a cell decide the topology, the vertices lie on axis edges.
 ///
 /// A vertex stands for one lattice edge, so the mesh is an oriented 2-manifold by vertex index whatever
-/// the samples are; its boundary lies where the domain ends or samples are missing or a plane clips. One
-/// exception: where of the four cells around an edge only two opposite ones have all samples, two fans share
-/// the edge's vertex: still a manifold by edge. Positions are world coordinates by the axis tables of
-/// `lattice`, or by the heights that the key frames bring where it has them, linear in time like the field;
-/// normals come from central differences in world space (one-sided beside the domain's end and missing
-/// samples). Zero-area triangles, where samples equal the iso-value, stay. Cost follows the bricks that the
-/// surface touches.
+/// the samples are; its boundary lies where the domain ends or samples are missing or a plane clips. Where of
+/// the four cells around an edge only two opposite ones have all samples, the edge has a vertex for each of
+/// them. Positions are world coordinates by the axis tables of `lattice`, or by the heights that the key
+/// frames bring where it has them, linear in time like the field; normals come from central differences in
+/// world space (one-sided beside the domain's end and missing samples). Zero-area triangles, where samples
+/// equal the iso-value, stay. Cost follows the bricks that the surface touches.
 ///
 /// Pure: any number of calls may run at once. The same arguments give the same bytes for any `threads`.
 /// Both key frames must be of `lattice`, and have heights where it has them.

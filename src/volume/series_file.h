@@ -62,8 +62,8 @@ using ImportProgress = std::function<void(std::size_t done, std::size_t total)>;
 SeriesDescription writeSeries(FrameSource& source, const std::filesystem::path& out,
                               const SparsityOptions& options = {}, const ImportProgress& progress = {});
 
-/// Builds a key frame in memory from dense samples (x fastest, NaN = missing), for generated fields; with
-/// dense heights where `lattice` has them.
+/// Builds a key frame in memory from dense samples (x fastest; NaN, infinity, beyond kLargestValue: missing)
+/// for generated fields, with dense heights where `lattice` has them.
 std::shared_ptr<const KeyFrame> makeKeyFrame(const Lattice& lattice, std::span<const float> samples,
                                              std::span<const float> heights = {});
 

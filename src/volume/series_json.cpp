@@ -1,6 +1,7 @@
 #include "volume/series_json.h"
 
 #include "base/error.h"
+#include "volume/lattice_check.h"
 
 #include <nlohmann/json.hpp>
 
@@ -140,6 +141,7 @@ SeriesDescription parse(std::string_view text) {
     series.units = json.at("units");
     for (int k = 0; k < 3; ++k) series.lattice.axes[k] = axisFromJson(json.at("axes").at(k));
     if (heights) series.lattice.heights = heightsFromJson(json.at("heights"));
+    requireUsable(series.lattice, "axes");
     series.time = timeFromJson(json.at("time"));
     for (const Json& frame : json.at("frames")) series.frames.push_back(frameFromJson(frame));
     if (series.frames.size() != series.time.times.size()) {

@@ -4,6 +4,7 @@
 #include "volume/brick_fates.h"
 #include "volume/checksum.h"
 #include "volume/heights.h"
+#include "volume/lattice_check.h"
 #include "volume/series_file.h"
 #include "volume/series_grids.h"
 #include "volume/series_json.h"
@@ -190,6 +191,7 @@ SeriesDescription writeSeries(FrameSource& source, const std::filesystem::path& 
     openvdb::initialize();
     AtomicFile file(out);
     SeriesDescription series = source.description();
+    requireUsable(series.lattice, series.provenance);
     series.name = asUtf8(series.name);  // names the grids, and is read back from the JSON text
     const glm::ivec3 dims = series.lattice.dims();
     series.storedError = options.tolerance;

@@ -1,6 +1,7 @@
 #include "volume/sparse_grid.h"
 
 #include "basis/parallel.h"
+#include "volume/frame_source.h"
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
@@ -57,7 +58,7 @@ BuiltBrick buildBrick(glm::ivec3 dims, std::span<const float> samples, glm::ivec
             const float* row =
                 &samples[(static_cast<std::size_t>(base.z + z) * dims.y + base.y + y) * dims.x + base.x];
             for (int x = 0; x < inside.x; ++x) {
-                if (std::isnan(row[x])) continue;
+                if (!(std::abs(row[x]) <= kLargestValue)) continue;  // nor is a NaN
                 const int offset = (x * kBrickSize + y) * kBrickSize + z;
                 values[offset] = row[x];
                 leaf->setValueOn(offset);

@@ -15,9 +15,10 @@
 
 namespace isoglass {
 
-/// Builds the tree of one key frame from dense samples (x fastest, NaN = missing): missing samples stay
-/// inactive, a brick that lies wholly in the domain, has no missing sample and spans at most
-/// 2 * `tolerance` becomes an active tile; `fates` (one a brick, x fastest; may be empty) overrules that.
+/// Builds the tree of one key frame from dense samples (x fastest): what is missing (NaN, infinity, of
+/// magnitude above kLargestValue) stays inactive, a brick that lies wholly in the domain, has no missing
+/// sample and spans at most 2 * `tolerance` becomes an active tile; `fates` (one a brick, x fastest; may be
+/// empty) overrules that.
 openvdb::FloatGrid::Ptr makeSparseGrid(glm::ivec3 dims, std::span<const float> samples, double tolerance,
                                        std::span<const BrickFate> fates = {});
 

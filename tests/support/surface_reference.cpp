@@ -85,7 +85,7 @@ class Extractor {
                 for (int x = 0; x < cells.x; ++x) addCell({x, y, z});
             }
         }
-        for (const auto& [edge, vertex] : surface_.vertices) surface_.pinchedEdges += isPinched(edge);
+        for (const auto& [edge, vertex] : surface_.vertices) surface_.pinchedEdges += edge.second;
         return std::move(surface_);
     }
 
@@ -137,7 +137,9 @@ class Extractor {
     LatticeEdge vertexOn(glm::ivec3 cell, CellEdge cellEdge) {
         const glm::ivec3 low = cell + cornerOffset(cellEdge.corner);
         const glm::ivec3 high = low + cornerOffset(cellEdge.direction);
-        const LatticeEdge edge{low.x, low.y, low.z, cellEdge.direction};
+        LatticeEdge edge{low.x, low.y, low.z, cellEdge.direction};
+        const int firstOther = edge.direction == 1 ? 1 : 0;
+        edge.second = low[firstOther] > cell[firstOther] && isPinched(edge);
         const auto [place, isNew] = surface_.vertices.try_emplace(edge);
         if (!isNew) return edge;
         ReferenceSurface::Vertex& vertex = place->second;
@@ -177,9 +179,9 @@ class Extractor {
 };
 
 /// The order of the mesh's vertices, see the header.
-std::array<int, 7> orderOf(const LatticeEdge& edge) {
+std::array<int, 8> orderOf(const LatticeEdge& edge) {
     const int kind = edge.direction == 1 ? 0 : edge.direction == 2 ? 1 : edge.direction == 4 ? 2 : 3;
-    return {edge.z / 8, edge.y / 8, edge.x / 8, edge.x, edge.y, kind, edge.z};
+    return {edge.z / 8, edge.y / 8, edge.x / 8, edge.second, edge.x, edge.y, kind, edge.z};
 }
 
 double largestComponent(glm::dvec3 v) {

@@ -13,12 +13,15 @@
 
 namespace isoglass {
 
-/// A lattice edge: from sample (x,y,z) in `direction` (bits x, y, z).
+/// A vertex' place, the lattice edge from sample (x,y,z) in `direction` (bits x, y, z). A pinched edge, of
+/// whose four cells only two diagonally opposite ones have all samples, has two vertices: the `second`
+/// belongs to the cell that lies before the edge along the first of the other two axes.
 struct LatticeEdge {
     int x;
     int y;
     int z;
     int direction;
+    bool second = false;
 
     friend auto operator<=>(const LatticeEdge&, const LatticeEdge&) = default;
 };
@@ -38,8 +41,7 @@ struct ReferenceSurface {
     std::set<Triangle> triangles;
     /// Cells that lack a sample while the others lie on both sides.
     std::size_t lostCells = 0;
-    /// Axis edges of which only two diagonally opposite cells have all samples: two fans meet there.
-    std::size_t pinchedEdges = 0;
+    std::size_t pinchedEdges = 0;  ///< those with two vertices
 };
 
 /// `samples` are dense, x fastest, NaN = missing.
@@ -50,7 +52,7 @@ ReferenceSurface extractReference(const Lattice& lattice, std::span<const float>
 /// `positionTolerance`, normals within `normalTolerance` (both world units, any component).
 ///
 /// The mesh carries no keys; its vertices come brick by brick (x fastest), in a brick by x, y, kind of
-/// edge (x, y, z, body diagonal) and z of the lower end.
+/// edge (x, y, z, body diagonal) and z of the lower end, and after those its second vertices likewise.
 std::string differenceFromReference(const SurfaceMesh& mesh, const ReferenceSurface& reference,
                                     double positionTolerance, double normalTolerance);
 

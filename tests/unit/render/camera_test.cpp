@@ -63,8 +63,8 @@ TEST(Camera, TheNearPlaneIsOfTheScalesSize) {
     const double outside = nearDistance(camera, Bounds{{100, -1, -1}, {102, 1, 1}});
     EXPECT_GT(outside, 80);
     EXPECT_LT(outside, 100);
-    // The eye inside the box: a millionth of the farthest corner.
-    EXPECT_NEAR(nearDistance(camera, Bounds{{-3, -4, 0}, {3, 4, 0}}), 5e-6, 1e-12);
+    // The eye inside the box: a billionth of the farthest corner.
+    EXPECT_NEAR(nearDistance(camera, Bounds{{-3, -4, 0}, {3, 4, 0}}), 5e-9, 1e-15);
 }
 
 TEST(Camera, TransformedBoundsHoldEveryCorner) {
