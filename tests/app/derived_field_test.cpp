@@ -40,7 +40,7 @@ TEST_F(DerivedField, ErrorsNameOptionAndColumn) {
     std::ofstream(folder_ / "a.pvm", std::ios::binary) << "PVM\n2 2 2\n1\n01234567";
     const RunResult other = isoglass({"import", "a.pvm", "--height", "h", "-o", "new.vdb"});
     EXPECT_EQ(other.status, 1);
-    EXPECT_TRUE(contains(other.err, "only NetCDF files have heights")) << other.err;
+    EXPECT_TRUE(contains(other.err, "have no heights (--height")) << other.err;
     EXPECT_EQ(files(), (std::set<std::string>{"a.pvm"}));
 }
 

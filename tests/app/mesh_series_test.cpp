@@ -146,11 +146,11 @@ TEST_F(MeshSeries, StepsMeasureBetweenKeyFrames) {
 }
 
 TEST_F(MeshSeries, TwoPiecesAndNoneAreCounted) {
-    writeShape("two.pvm", [](double x, double y, double z) {
+    writeShape("step1.pvm", [](double x, double y, double z) {
         return std::min(std::hypot(x - 12, y, z), std::hypot(x + 12, y, z)) - 7;
     });
-    writeShape("none.pvm", [](double, double, double) { return 10.0; });
-    run({"import", "two.pvm", "none.pvm", "-o", "pieces.vdb"});
+    writeShape("step2.pvm", [](double, double, double) { return 10.0; });
+    run({"import", "step1.pvm", "step2.pvm", "-o", "pieces.vdb"});
     run({"mesh", "pieces.vdb", "--iso", "128", "--series", "-o", "pieces.csv"});
     const auto rows = table("pieces.csv");
     EXPECT_EQ(rows[0].at("components"), 2);

@@ -1,6 +1,8 @@
 #include "app/app_test.h"
 
+#include <cmath>
 #include <cstring>
+#include <fstream>
 #include <regex>
 
 namespace isoglass::test {
@@ -55,14 +57,26 @@ TEST_F(Mesh, TimeChoosesTheMoment) {
 }
 
 TEST_F(Mesh, ViewMakesItCoarserWithTheDistance) {
+    // A ball of bytes: 255 in the middle, 3 less a sample outwards.
+    constexpr int kSide = 64;
+    std::string bytes = "PVM\n64 64 64\n1\n";
+    for (int i = 0; i < kSide * kSide * kSide; ++i) {
+        const double x = i % kSide - 31.5, y = i / kSide % kSide - 31.5, z = i / (kSide * kSide) - 31.5;
+        bytes += static_cast<char>(255 - static_cast<int>(3 * std::sqrt(x * x + y * y + z * z)));
+    }
+    std::ofstream(folder_ / "ball.pvm", std::ios::binary) << bytes;
+    run({"import", "ball.pvm", "-o", "ball.vdb"});
     const auto triangles = [&](const std::string& eye) {
-        const RunResult result = run({"mesh", "ocean.vdb", "--iso", "15", "-o", "view.ply", "--eye", eye,
-                                      "--pixels", "2", "--size", "1280x720"});
-        EXPECT_TRUE(contains(result.out, "view.ply: ")) << result.err;
+        const RunResult result = run({"mesh", "ball.vdb", "--iso", "180", "-o", "view.ply", "--eye", eye,
+                                      "--pixels", "20", "--size", "1280x720"});
         return numberBefore(result.out, "triangles");
     };
-    // The ocean's axes are degrees and metres, so that the eye is far away at a distance of 1e7.
-    EXPECT_LT(3 * triangles("0,0,1e7"), triangles("200,0,-100"));
+    // A cell is 20 pixels at a distance of 67 cells: level 1 from 134 on, level 2, of sixteen times fewer
+    // triangles of which half are tetrahedral, from 269 on.
+    const std::size_t near = triangles("32,32,64");
+    EXPECT_GT(near, 5000u);
+    EXPECT_LT(2 * triangles("32,32,220"), near);
+    EXPECT_LT(5 * triangles("32,32,500"), near);
 }
 
 TEST_F(Mesh, ViewIsGivenWhole) {
