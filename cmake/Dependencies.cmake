@@ -1,4 +1,5 @@
-# What the libraries stand on, here and in programs that use them. Everything comes from Debian's packages: scripts/packages.txt lists them.
+# What the libraries stand on, here and in programs that use them. Everything comes from Debian's packages:
+# scripts/packages.txt lists them.
 list(APPEND CMAKE_MODULE_PATH "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB")
 
 set(Boost_NO_WARN_NEW_VERSIONS ON)
@@ -11,7 +12,7 @@ if(ISOGLASS_VTK)
   find_package(X11 QUIET)
   find_package(GLEW QUIET)
   find_package(VTK 9.1 QUIET COMPONENTS CommonCore CommonDataModel CommonExecutionModel IOXML IOXMLParser
-    OPTIONAL_COMPONENTS RenderingCore RenderingOpenGL2)
+    OPTIONAL_COMPONENTS FiltersCore RenderingCore RenderingOpenGL2)
   if(NOT VTK_FOUND)
     message(STATUS "VTK was not found: .vti, .pvd and .vti.series cannot be imported (libvtk9-dev)")
     set(ISOGLASS_VTK OFF)

@@ -1,0 +1,37 @@
+# Checks the rule that the contract of bytes stands on: no fast-math, no contraction, no instruction set beyond
+# the platform's, and in the object code no fused multiply-add and no approximate reciprocal, even where the
+# processor has them.
+#   cmake -DCOMMANDS=compile_commands.json -DOBJDUMP=program -DSOURCE=root -DLIBRARIES=a;b -P arithmetic.cmake
+file(READ "${COMMANDS}" json)
+string(JSON count LENGTH "${json}")
+math(EXPR last "${count} - 1")
+set(checked 0)
+foreach(i RANGE ${last})
+  string(JSON file GET "${json}" ${i} file)
+  string(JSON command GET "${json}" ${i} command)
+  if(NOT file MATCHES "^${SOURCE}/(src|threads)/" OR command MATCHES "mesh_bytes_surface_")
+    continue()
+  endif()
+  math(EXPR checked "${checked} + 1")
+  if(NOT command MATCHES "-ffp-contract=off")
+    message(SEND_ERROR "${file} is compiled without -ffp-contract=off")
+  endif()
+  if(command MATCHES "-ffast-math|-Ofast|-funsafe-math|-fassociative-math|-freciprocal-math|-mrecip|-march=|-mfma|-mavx")
+    message(SEND_ERROR "${file} is compiled with ${CMAKE_MATCH_0}")
+  endif()
+endforeach()
+if(checked LESS 50)
+  message(SEND_ERROR "only ${checked} files were checked")
+endif()
+
+foreach(library IN LISTS LIBRARIES)
+  execute_process(COMMAND "${OBJDUMP}" -d --no-show-raw-insn "${library}"
+    OUTPUT_VARIABLE code RESULT_VARIABLE failed)
+  if(failed OR NOT code MATCHES "mulsd")
+    message(SEND_ERROR "${library} cannot be looked into")
+  endif()
+  if(code MATCHES "[ \t](vf(n?m)(add|sub)[0-9a-z]*|v?rcp[ps]s|v?rsqrt[ps]s|vrcp14[a-z]*|vrsqrt14[a-z]*)[ \t]")
+    message(SEND_ERROR "${library} holds ${CMAKE_MATCH_1}")
+  endif()
+endforeach()
+message(STATUS "${checked} files, ${LIBRARIES}: no fused, approximate or fast arithmetic")
