@@ -23,12 +23,12 @@ double bell(double distance, double width) {
 /// Cloud water at x, y in [-1,1], height z and time t in [0,1]: a leaning tower that grows into an anvil.
 double cloud(double x, double y, double z, double t) {
     const double top = 0.35 + 0.5 * t;
-    const double dx = x - 0.25 * std::sin(3 * z + 4 * t);
-    const double dy = y - 0.20 * std::cos(2.3 * z - 3 * t);
+    const double dx = x + 0.1 - 0.25 * std::sin(3 * z + 4 * t);
+    const double dy = y + 0.2 - 0.20 * std::cos(2.3 * z - 3 * t);
     const double radius = std::hypot(dx, dy);
     const double tower = bell(radius, 0.22 + 0.15 * z) / (1 + std::exp((z - top) * 30));
     const double anvil = 0.7 * t * bell(z - top, 0.11) * bell(radius, 0.35 + 0.45 * t);
-    const double cell = 0.8 * t * bell(std::hypot(x - 0.5, y + 0.4), 0.2) * bell(z - 0.3, 0.25);
+    const double cell = 0.8 * t * bell(std::hypot(x - 0.6, y + 0.5), 0.2) * bell(z - 0.3, 0.25);
     return tower + anvil + cell;
 }
 
