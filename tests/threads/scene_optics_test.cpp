@@ -1,6 +1,8 @@
+#include "base/error.h"
 #include "pipeline/batch.h"
 #include "pipeline/render_loop.h"
 #include "pipeline/scene_extractor.h"
+#include "threads/damage.h"
 #include "unit/volume/series_fixture.h"
 #include "volume/analytic.h"
 
@@ -108,6 +110,18 @@ TEST_F(SceneOptics, ClippingEverythingExtractsNothing) {
         EXPECT_EQ(surface.stats.touchedBricks, 0u);
         EXPECT_TRUE(surface.mesh->empty());
     }
+}
+
+TEST_F(SceneOptics, OnAKeyFrameTheSecondOneIsNotRead) {
+    const auto extractBesideDamage = [this](double time) {
+        scene_.time = {.from = time, .to = time};
+        scene_.volumes[0].series = write("damaged.vdb", blobs);
+        SceneExtractor extractor(scene_, {});
+        test::damageEnd(folder_ / "damaged.vdb");  // samples of the second key frame
+        return extractor.extract(0, scene_.camera.pose, 120).surfaces[0].mesh->triangleCount();
+    };
+    EXPECT_GT(extractBesideDamage(0), 0u);
+    EXPECT_THROW(extractBesideDamage(0.5), Error);
 }
 
 TEST_F(SceneOptics, PlanesMoveFromCallToCall) {
