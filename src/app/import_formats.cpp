@@ -4,6 +4,7 @@
 #include "formats/file_source.h"
 #include "formats/foreign_vdb.h"
 #include "formats/header_text.h"
+#include "formats/isolated_source.h"
 #include "formats/medical_images.h"
 #include "formats/payload.h"
 #include "formats/raw_json.h"
@@ -34,6 +35,15 @@ const path& onlyFile(std::span<const path> files, std::string_view format) {
     return files.front();
 }
 
+/// The start of a file, as it is where it cannot be decompressed: the format's reader says what is wrong.
+std::string startOf(const path& file) {
+    try {
+        return readStart(file, kStartBytes);
+    } catch (const Error&) {
+        return {};
+    }
+}
+
 template <const char* format, std::unique_ptr<FileSource> (*open)(const path&, const std::string&)>
 std::unique_ptr<FrameSource> openFiles(std::span<const path> files, const ImportOptions& options) {
     return openSequence(files, open, options, format);
@@ -57,12 +67,18 @@ constexpr decltype(ImportFormat::open) kOpenVtkImages = nullptr;
 constexpr decltype(ImportFormat::open) kOpenVtkSeries = nullptr;
 #endif
 
+/// The header of a classic file is checked before the library reads it; one of NetCDF-4 makes the HDF5 library
+/// loop or crash where a bit of it is wrong.
+std::unique_ptr<FrameSource> openNetcdfFile(std::span<const path> files, const ImportOptions& options) {
+    const path& file = onlyFile(files, "NetCDF");
+    if (startOf(file).starts_with("CDF")) return openNetcdf(file, options);
+    return openIsolated(files, [file, options] { return openNetcdf(file, options); });
+}
+
 const std::array<ImportFormat, 10> kFormats = {{
     {"NetCDF", ".nc .nc4 .cdf", true, true,
      [](std::string_view start) { return start.starts_with("CDF") || start.starts_with("\x89HDF"); },
-     [](std::span<const path> files, const ImportOptions& options) {
-         return openNetcdf(onlyFile(files, "NetCDF"), options);
-     }},
+     &openNetcdfFile},
     {"PVM", ".pvm", true, false,
      [](std::string_view start) { return start.starts_with("PVM") || start.starts_with("DDS v3"); },
      &openPvm},
@@ -94,15 +110,6 @@ const std::array<ImportFormat, 10> kFormats = {{
     {"RAW with a JSON description", ".json", true, false,
      [](std::string_view start) { return contains(start, "\"isoglass-raw\""); }, &openFiles<kRaw, &openRaw>},
 }};
-
-/// The start of a file, as it is where it cannot be decompressed: the format's reader says what is wrong.
-std::string startOf(const path& file) {
-    try {
-        return readStart(file, kStartBytes);
-    } catch (const Error&) {
-        return {};
-    }
-}
 
 bool hasEnding(const path& file, const ImportFormat& format) {
     const std::string name = lowerCase(file.filename().string());

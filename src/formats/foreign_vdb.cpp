@@ -4,6 +4,7 @@
 #include "formats/file_source.h"
 #include "formats/isolated_source.h"
 #include "formats/orientation.h"
+#include "formats/vdb_extent.h"
 #include "volume/import_times.h"
 
 #include <openvdb/io/File.h>
@@ -35,6 +36,7 @@ std::unique_ptr<openvdb::io::File> openFile(const std::filesystem::path& path, b
     std::error_code unreadable;
     if (!std::filesystem::is_regular_file(path, unreadable))
         throw Error("there is no such file", path.string());
+    requireWholeVdb(path);
     auto file = std::make_unique<openvdb::io::File>(path.string());
     file->setCopyMaxBytes(0);
     try {

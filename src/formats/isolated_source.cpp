@@ -31,6 +31,12 @@ namespace {
 
 constexpr std::uint64_t kLargestMessage = std::uint64_t{1} << 30;
 
+/// What the parent asks for.
+struct Request {
+    std::uint64_t frame = 0;
+    std::uint64_t heights = 0;  ///< 1: heights instead of samples
+};
+
 /// One end of the connection between the two processes. Both return false where the other end is gone.
 class Channel {
   public:
@@ -139,29 +145,39 @@ bool guarded(const Channel& channel, const std::string& place, const Action& act
     return false;
 }
 
+/// The text form wants records of the key frames, which are not known yet.
+std::string textOf(SeriesDescription series) {
+    FrameRecord unknown;
+    if (series.lattice.heights) unknown.heightsChecksum = 0;
+    series.frames.assign(series.time.times.size(), unknown);
+    return toJson(series);
+}
+
 /// Answers requests until the parent is gone.
 void serve(const Channel& channel, const std::string& place,
            const std::function<std::unique_ptr<FrameSource>()>& open) {
     std::unique_ptr<FrameSource> source;
     std::unique_ptr<float[]> samples;
     std::size_t count = 0;
-    std::uint64_t held = 0;  ///< the key frame in `samples`
+    constexpr std::uint64_t kNone = ~std::uint64_t{0};
+    std::uint64_t held = 0;  ///< the key frame whose samples are in `samples`
     const bool opened = guarded(channel, place, [&] {
         source = open();
         SeriesDescription series = source->description();
         count = samplesOf(series);
         samples = std::make_unique_for_overwrite<float[]>(count);
         source->read(0, {samples.get(), count});
-        series.frames.resize(series.time.times.size());  // as the text form wants it
-        channel.sendText(true, toJson(series));
+        channel.sendText(true, textOf(std::move(series)));
     });
-    std::uint64_t frame = 0;
-    while (opened && channel.receive(&frame, sizeof frame)) {
+    Request request;
+    while (opened && channel.receive(&request, sizeof request)) {
         const bool read = guarded(channel, place, [&] {
-            if (frame != held) source->read(frame, {samples.get(), count});
-            held = frame;
+            if (request.heights == 0 && held == request.frame) return;
+            held = kNone;
+            if (request.heights != 0) return source->readHeights(request.frame, {samples.get(), count});
+            source->read(request.frame, {samples.get(), count});
+            held = request.frame;
         });
-        if (!read) held = ~std::uint64_t{0};
         if (read && (!channel.sendText(true, "") || !channel.send(samples.get(), count * sizeof(float))))
             return;
     }
@@ -185,7 +201,7 @@ class IsolatedSource final : public FrameSource {
                    const std::function<std::unique_ptr<FrameSource>()>& open)
         : place_(files.empty() ? std::string() : files.front().string()) {
         if (files.size() > 1) place_ += " and " + std::to_string(files.size() - 1) + " more";
-        constexpr std::uint64_t kLeastSeconds = 20, kBytesPerSecond = 4'000'000;
+        constexpr std::uint64_t kLeastSeconds = 10, kBytesPerSecond = 1'000'000;
         start(open, kLeastSeconds + bytesOf(files) / kBytesPerSecond);
         try {
             const auto text = channel_->receiveText();
@@ -202,15 +218,17 @@ class IsolatedSource final : public FrameSource {
 
     const SeriesDescription& description() const override { return description_; }
 
-    void read(std::size_t frame, std::span<float> samples) override {
+    void read(std::size_t frame, std::span<float> samples) override { ask({frame, 0}, samples); }
+    void readHeights(std::size_t frame, std::span<float> heights) override { ask({frame, 1}, heights); }
+
+  private:
+    void ask(Request request, std::span<float> samples) {
         if (!channel_) throw Error("the reader of the file has failed before", place_);
-        const std::uint64_t request = frame;
         if (!channel_->send(&request, sizeof request) || !channel_->receiveText() ||
             !channel_->receive(samples.data(), samples.size_bytes()))
             failDead();
     }
 
-  private:
     void start(const std::function<std::unique_ptr<FrameSource>()>& open, std::uint64_t processorSeconds) {
         int ends[2];
         if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)

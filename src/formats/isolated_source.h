@@ -15,7 +15,7 @@ namespace isoglass {
 /// `open` runs in the child, a fork of this process without its other threads: it must not wait for any of
 /// them. The child reads the first key frame at once, so that a description that came is one whose samples
 /// could be read. It gets as much address space as the machine has memory on top of what it began with, and
-/// processor time by the size of `files`: 20 seconds and one for 4 MB. What the library prints is
+/// processor time by the size of `files`: 10 seconds and one for each MB. What the library prints is
 /// dropped.
 ///
 /// Throws Error: what `open` or `read` threw, or that the reader failed.

@@ -48,10 +48,11 @@ TEST_F(BadInput, NetcdfCutShort) {
 }
 
 /// NetCDF has no checksum: a flipped bit of a sample is another sample. So either the file is refused, or
-/// what comes of it is whole. Only for the classic formats, whose header is ours to check: in NetCDF-4 a
-/// flipped bit can make the HDF5 library read for ever.
-TEST_F(BadInput, NetcdfWithFlippedBits) {
-    const std::string whole = netcdf(kClassic);
+/// what comes of it is whole.
+class FlippedNetcdf : public BadInput, public testing::WithParamInterface<int> {};
+
+TEST_P(FlippedNetcdf, IsRefusedOrReadWhole) {
+    const std::string whole = netcdf(GetParam());
     int refused = 0;
     constexpr std::size_t kFlips = 60;
     for (std::size_t i = 0; i < kFlips; ++i) {
@@ -73,6 +74,10 @@ TEST_F(BadInput, NetcdfWithFlippedBits) {
     }
     EXPECT_GT(refused, 0) << "the first byte is the magic";
 }
+
+INSTANTIATE_TEST_SUITE_P(Formats, FlippedNetcdf, testing::Values(kClassic, NC_NETCDF4), [](const auto& test) {
+    return test.param == kClassic ? "classic" : "netcdf4";
+});
 
 TEST_F(BadInput, SeriesDamagedAnywhereIsRefusedByEveryVerb) {
     importOcean();

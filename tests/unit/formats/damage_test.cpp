@@ -114,8 +114,6 @@ TEST_P(Damage, FlippedBitsNeverCrash) {
 }
 
 TEST_P(Damage, TruncatedFilesAreRefused) {
-    if (specimen_.name == "a.vdb")
-        GTEST_SKIP() << "OpenVDB may search the end of a file that was cut until its time is over";
     for (std::size_t size = 0; size < specimen_.bytes.size(); size += 5 * specimen_.step)
         EXPECT_FALSE(tryToRead(specimen_.bytes.substr(0, size))) << size;
 }

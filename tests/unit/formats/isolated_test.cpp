@@ -31,6 +31,11 @@ class ToldSource final : public FrameSource {
         for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<float>(100 * frame + i);
         samples[5] = std::numeric_limits<float>::quiet_NaN();
     }
+    void readHeights(std::size_t frame, std::span<float> heights) override {
+        for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = static_cast<float>(1000 * frame + i);
+    }
+
+    void useHeights() { description_.lattice.heights = HeightField{"PH / 9.81", "m"}; }
 
   private:
     SeriesDescription description_;
@@ -59,6 +64,24 @@ TEST(Isolated, GivesWhatTheSourceGives) {
     }
 }
 
+TEST(Isolated, GivesHeightsBetweenSamples) {
+    const std::vector<std::filesystem::path> files = {"told.xyz"};
+    const auto source = openIsolated(files, [] {
+        auto told = std::make_unique<ToldSource>([](std::size_t) {});
+        told->useHeights();
+        return told;
+    });
+    ASSERT_TRUE(source->description().lattice.heights);
+    EXPECT_EQ(source->description().lattice.heights->name, "PH / 9.81");
+    std::vector<float> heights(24);
+    for (const std::size_t frame : {0, 1}) {
+        EXPECT_EQ(test::readFrame(*source, frame)[23], static_cast<float>(100 * frame + 23));
+        source->readHeights(frame, heights);
+        EXPECT_EQ(heights[23], static_cast<float>(1000 * frame + 23));
+        EXPECT_EQ(test::readFrame(*source, frame)[23], static_cast<float>(100 * frame + 23));
+    }
+}
+
 TEST(Isolated, ErrorsPassWithTheirText) {
     EXPECT_TRUE(failsWith([] { open([](std::size_t) { throw Error("broken", "here", "mend it"); }); },
                           {"broken (here); mend it"}));
@@ -69,12 +92,18 @@ TEST(Isolated, ErrorsPassWithTheirText) {
     EXPECT_EQ(test::readFrame(*source, 0)[1], 1) << "an error is not the end";
 }
 
+/// Ends this process as a bad access does; without the handler by which the address sanitizer would report it.
+void crash(int signal) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+}
+
 TEST(Isolated, CrashIsAnError) {
-    EXPECT_TRUE(failsWith([] { open([](std::size_t) { std::raise(SIGSEGV); }); }, {"crashed", "told.xyz"}));
+    EXPECT_TRUE(failsWith([] { open([](std::size_t) { crash(SIGSEGV); }); }, {"crashed", "told.xyz"}));
     EXPECT_TRUE(failsWith([] { open([](std::size_t) { std::abort(); }); }, {"crashed", "told.xyz"}));
     EXPECT_TRUE(failsWith([] { open([](std::size_t) { ::_exit(3); }); }, {"reader ended", "told.xyz"}));
     const auto source = open([](std::size_t frame) {
-        if (frame == 1) std::raise(SIGBUS);
+        if (frame == 1) crash(SIGBUS);
     });
     EXPECT_TRUE(failsWith([&] { test::readFrame(*source, 1); }, {"crashed", "told.xyz"}));
     EXPECT_TRUE(failsWith([&] { test::readFrame(*source, 0); }, {"failed before", "told.xyz"}));
