@@ -107,7 +107,8 @@ class RawSource final : public FileSource {
 
     void read(std::size_t frame, std::span<float> samples) override {
         const Conversion convert(file_.layout);
-        const auto& [fast, middle, slow] = spatial_;
+        // No structured binding: Clang 14 does not let lambdas take one along.
+        const Extent &fast = spatial_[0], &middle = spatial_[1], &slow = spatial_[2];
         const std::uint64_t frameOffset = frame * timeStride_;
         // Where time is not the slowest axis, a plane of all key frames is read and one of them taken.
         const std::uint64_t planeOffset = timeIsSlowest_ ? frameOffset : 0;
