@@ -49,7 +49,8 @@ void addImport(CLI::App& app, std::function<void()>& run) {
     auto command = std::make_shared<ImportCommand>();
     CLI::App* verb = app.add_subcommand("import", "Turn a foreign series into one of IsoGlass");
     verb->footer(listImportFormats());
-    verb->add_option("INPUT", command->inputs, "One file, or several of one format in the order of time")
+    verb->add_option("INPUT", command->inputs, "One file, or several of one format, a key frame each, in the order of the numbers in their "
+                     "names; with --times in the order given")
         ->required();
     verb->add_option("-o,--output", command->out, "The series to write (.vdb)")->required();
     verb->add_option("--variable", command->options.variable,
@@ -186,7 +187,8 @@ void addMesh(CLI::App& app, const CommonOptions& common, std::function<void()>& 
 void addValidate(CLI::App& app, std::function<void()>& run, int& status) {
     auto command = std::make_shared<ValidateCommand>();
     CLI::App* verb = app.add_subcommand(
-        "validate", "Say what is wrong with a scene and its series, or with a series: all of it, and where");
+        "validate", "Say what is wrong with a scene and its series, or with a series: all of it, and where; reads every "
+        "key frame");
     verb->add_option("FILE", command->file, "Scene file (.json) or series (.vdb)")->required();
     verb->add_flag("--json", command->json, "Print JSON");
     verb->callback([command, &run, &status] {

@@ -53,7 +53,7 @@ std::unique_ptr<FrameSource> openSource(const ImportCommand& command) {
     const ImportFormat& format = findImportFormat(files.front());
     if (!options.height.empty() && !format.takesHeights)
         throw Error(std::string(format.name) + " files have no heights", "--height " + options.height,
-                    "leave it out");
+                    "leave it out: only variables of NetCDF files can be heights");
     return format.open(files, options);
 }
 
@@ -64,9 +64,6 @@ void runImport(const ImportCommand& command) {
         throw Error("a series has the extension .vdb", command.out.string(), "name it so");
     }
     const auto source = openSource(command);
-    if (!command.options.height.empty() && !source->description().lattice.heights) {
-        throw Error("only NetCDF files have heights", "--height", "leave it out");
-    }
     for (const std::string& note : source->description().notes) printNote(note);
     const auto frames = static_cast<std::int64_t>(source->description().time.times.size());
     SeriesDescription series;

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
+#include <utility>
 
 namespace isoglass {
 
@@ -24,6 +26,19 @@ Problem fromError(const Error& error, const std::string& file) {
     return problem;
 }
 
+/// What the checksums of its key frames say against a series.
+std::vector<Error> damagedFrames(const SeriesFile& series) {
+    std::vector<Error> errors;
+    for (std::size_t i = 0; i < series.description().frames.size(); ++i) {
+        try {
+            series.read(i);
+        } catch (const Error& error) {
+            errors.push_back(error);
+        }
+    }
+    return errors;
+}
+
 /// Checks the volumes of a scene against their series.
 class VolumeChecks {
   public:
@@ -33,20 +48,8 @@ class VolumeChecks {
     void check(std::size_t index) {
         const Volume& volume = scene_.rest->volumes[index];
         pointer_ = "/volumes/" + std::to_string(index);
-        if (scene_.touches(pointer_ + "/series")) return;
-        std::shared_ptr<const SeriesFile> file;
-        try {
-            file = openSeries(volume);
-        } catch (const Error& error) {
-            return add(pointer_ + "/series", error.problem() + " (" + error.where() + ")", error.hint());
-        }
-        const SeriesDescription& series = file->description();
-        try {
-            checkGrid(volume, series);
-        } catch (const Error& error) {
-            add(pointer_ + "/grid", error.problem() + " (" + error.where() + ")", error.hint());
-        }
-        checkSurfaces(volume, series, checkTimes(volume, file));
+        if (!scene_.touches(pointer_ + "/series")) checkSeries(volume);
+        for (std::size_t i = 0; i < volume.surfaces.size(); ++i) checkColor(volume, i);
     }
 
   private:
@@ -55,6 +58,46 @@ class VolumeChecks {
         std::size_t first;
         std::size_t last;
     };
+
+    void checkSeries(const Volume& volume) {
+        const std::shared_ptr<const SeriesFile> file = openAt(pointer_ + "/series", volume);
+        if (!file) return;
+        const SeriesDescription& series = file->description();
+        try {
+            checkGrid(volume, series);
+        } catch (const Error& error) {
+            add(pointer_ + "/grid", error);
+        }
+        checkSurfaces(volume, series, checkTimes(volume, file));
+    }
+
+    void checkColor(const Volume& volume, std::size_t surface) {
+        const auto& color = volume.surfaces[surface].fieldColor;
+        const std::string place = pointer_ + "/surfaces/" + std::to_string(surface) + "/color";
+        if (!color || color->by != FieldColor::By::series || scene_.touches(place)) return;
+        Volume source;
+        source.series = color->series;
+        openAt(place + "/series", source);
+    }
+
+    /// The series with every key frame read once; null where it cannot be opened.
+    std::shared_ptr<const SeriesFile> openAt(const std::string& pointer, const Volume& volume) {
+        std::shared_ptr<const SeriesFile> file;
+        try {
+            file = openSeries(volume);
+        } catch (const Error& error) {
+            add(pointer, error);
+            return nullptr;
+        }
+        if (!read_.emplace(volume.series, volume.moreSeries).second) return file;
+        for (const Error& error : damagedFrames(*file)) add(pointer, error);
+        return file;
+    }
+
+    /// Names the place of the error, which is in another file, beside that in the scene.
+    void add(const std::string& pointer, const Error& error) {
+        add(pointer, error.problem() + " (" + error.where() + ")", error.hint());
+    }
 
     void add(const std::string& pointer, const std::string& what, const std::string& hint = {},
              Severity severity = Severity::error) {
@@ -119,6 +162,8 @@ class VolumeChecks {
     const SceneProblems& scene_;
     std::vector<Problem>& problems_;
     std::string pointer_;
+    /// Series whose key frames were read.
+    std::set<std::pair<std::filesystem::path, std::vector<std::filesystem::path>>> read_;
 };
 
 }  // namespace
@@ -145,14 +190,8 @@ std::vector<Problem> problemsOfScene(const std::filesystem::path& file) {
 std::vector<Problem> problemsOfSeries(const std::filesystem::path& file) {
     std::vector<Problem> problems;
     try {
-        const SeriesFile series(file);
-        for (std::size_t i = 0; i < series.description().frames.size(); ++i) {
-            try {
-                series.read(i);
-            } catch (const Error& error) {
-                problems.push_back(fromError(error, file.string()));
-            }
-        }
+        for (const Error& error : damagedFrames(SeriesFile(file)))
+            problems.push_back(fromError(error, file.string()));
     } catch (const Error& error) {
         problems.push_back(fromError(error, file.string()));
     }

@@ -20,8 +20,8 @@ struct Problem {
     std::string hint = {};     ///< how to mend it; may be empty
 };
 
-/// Everything that is wrong with a scene file and with the series that it names, as far as one error does
-/// not hide another.
+/// Everything that is wrong with a scene file and with the series that it names, checksums of all key frames
+/// included, as far as one error does not hide another.
 std::vector<Problem> problemsOfScene(const std::filesystem::path& file);
 
 /// Everything that is wrong with a series: its seal and, where that holds, the checksum of every key frame.

@@ -49,7 +49,7 @@ std::uint64_t renderIdentity(const Scene& scene, const SceneExtractor& extractor
     const std::string text = toJson(scene, root);
     digest.add(text);
     addNamedFiles(nlohmann::json::parse(text), root, digest);
-    for (const PlayedSeries& series : extractor.series()) digest.add(toJson(series.file->description()));
+    for (const auto& file : extractor.files()) digest.add(toJson(file->description()));
     gl::HeadlessContext context;
     digest.add(context.context().rendererName());
     digest.add(context.context().version());

@@ -63,5 +63,13 @@ TEST_F(DerivedField, HeightsOfTheAxisGiveTheSameSurface) {
     }
 }
 
+TEST_F(DerivedField, SeriesWithHeightsAreNotExported) {
+    run({"import", kExcerpt, "--height", "-ZAXLEVIT19", "-o", "heights.vdb"});
+    const RunResult result = isoglass({"export", "heights.vdb", "-o", "heights.json"});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_TRUE(contains(result.err, "heights") && contains(result.err, "(heights.vdb")) << result.err;
+    EXPECT_EQ(files(), (std::set<std::string>{"heights.vdb"}));
+}
+
 }  // namespace
 }  // namespace isoglass::test

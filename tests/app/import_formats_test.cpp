@@ -42,6 +42,17 @@ TEST_F(ImportFormats, UnknownFormatSaysWhereTheListIs) {
         << result.err;
 }
 
+TEST_F(ImportFormats, WithoutVtkItsFilesAreRefusedWithTheWayOut) {
+    if (ISOGLASS_VTK) GTEST_SKIP() << "built with VTK";
+    EXPECT_TRUE(contains(run({"import", "--help"}).out, "not in this build")) << "the list says so";
+    std::ofstream(folder_ / "a.vti") << R"(<VTKFile type="ImageData"><ImageData/></VTKFile>)";
+    const RunResult result = isoglass({"import", "a.vti", "-o", "a.vdb"});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_TRUE(contains(result.err, "this build cannot read VTK image data (a.vti); install libvtk9-dev"))
+        << result.err;
+    EXPECT_EQ(files(), (std::set<std::string>{"a.vti"}));
+}
+
 TEST_F(ImportFormats, ContentComesBeforeTheName) {
     writeNrrd("a.nii", 7);
     run({"import", "a.nii", "-o", "a.vdb"});

@@ -102,6 +102,20 @@ TEST_F(Resume, FramesOfAnotherSceneSeriesOrSizeAreNeverMixedIn) {
     EXPECT_TRUE(contains(result.err, "rendering 10/10 frames")) << result.err;
 }
 
+TEST_F(Resume, TheSeriesThatColoursCounts) {
+    const std::string excerpt = ISOGLASS_DATA_FOLDER "/ocean_excerpt.nc";
+    run({"import", excerpt, "-o", "color.vdb"});
+    std::string scene = bytesOf("scene.json");
+    scene.replace(scene.find("\"#e04030\""), 9, R"({"by": "series", "series": "color.vdb", "range": [0, 30]})");
+    std::ofstream(folder_ / "scene.json") << scene;
+    renderPart();
+    run({"import", excerpt, "--variable", "color = 30 - TEMP", "-o", "color.vdb"});
+    renderWhole();
+    const RunResult result = goOn();
+    EXPECT_TRUE(contains(result.err, "every frame is rendered")) << result.err;
+    expectSameAsWhole();
+}
+
 TEST_F(Resume, ThreadsAndMemoryDoNotCount) {
     renderPart();
     const RunResult result =

@@ -8,12 +8,29 @@ namespace {
 
 using Json = nlohmann::json;
 
+using List = std::vector<std::string>;
+
 class Validate : public AppTest {
   protected:
     void SetUp() override { importOcean(); }
 
     void write(const std::string& name, const std::string& text) const {
         std::ofstream(folder_ / name, std::ios::binary) << text;
+    }
+
+    /// The ocean's series changed and sealed again: the seal holds, the checksums of key frames 3 and 7 do not.
+    void writeDamaged(const std::string& name) const {
+        std::string bytes = bytesOf("ocean.vdb");
+        bytes.resize(bytes.size() - 24);  // the seal
+        const std::string key = "\"crc32\":";
+        std::size_t place = bytes.find(key);
+        for (int frame = 0; frame < 12; ++frame, place = bytes.find(key, place + 1)) {
+            ASSERT_NE(place, std::string::npos) << frame;
+            char& digit = bytes[bytes.find_first_of(",}", place) - 1];
+            if (frame == 3 || frame == 7) digit = digit == '0' ? '1' : '0';
+        }
+        write(name, bytes);
+        sealFile(folder_ / name, folder_ / name);
     }
 
     /// Severity and pointer of every problem, in order.
@@ -34,7 +51,6 @@ class Validate : public AppTest {
     }
 };
 
-using List = std::vector<std::string>;
 
 TEST_F(Validate, AValidSceneAndSeriesAreCalledSo) {
     writeScene();
@@ -136,25 +152,29 @@ TEST_F(Validate, DamagedSeriesBreaksItsSeal) {
     EXPECT_EQ(problems("short.vdb", 1).size(), 1u);
 }
 
-/// A file that was changed and sealed again: the seal holds, the key frames' own checksums do not.
 TEST_F(Validate, NamesEveryDamagedKeyFrame) {
-    std::string bytes = bytesOf("ocean.vdb");
-    bytes.resize(bytes.size() - 24);  // the seal
-    const std::string key = "\"crc32\":";
-    std::size_t place = bytes.find(key);
-    for (int frame = 0; frame < 12; ++frame, place = bytes.find(key, place + 1)) {
-        ASSERT_NE(place, std::string::npos) << frame;
-        char& digit = bytes[bytes.find_first_of(",}", place) - 1];
-        if (frame == 3 || frame == 7) digit = digit == '0' ? '1' : '0';
-    }
-    write("changed.vdb", bytes);
-    sealFile(folder_ / "changed.vdb", folder_ / "changed.vdb");
+    writeDamaged("changed.vdb");
     const RunResult result = isoglass({"validate", "changed.vdb"});
     EXPECT_EQ(result.status, 1);
     EXPECT_EQ(result.out, "changed.vdb: 2 errors\n");
     EXPECT_TRUE(contains(result.err, "checksum")) << result.err;
     EXPECT_TRUE(contains(result.err, "(changed.vdb, key frame 3)")) << result.err;
     EXPECT_TRUE(contains(result.err, "(changed.vdb, key frame 7)")) << result.err;
+}
+
+TEST_F(Validate, ReadsTheKeyFramesOfAScenesSeries) {
+    writeDamaged("changed.vdb");
+    write("volume.json", R"({"version": 1, "volumes": [{"series": "changed.vdb", "surfaces": [{"iso": 20}]},
+                                                       {"series": "changed.vdb", "surfaces": [{"iso": 5}]}]})");
+    EXPECT_EQ(problems("volume.json", 1), (List{"error /volumes/0/series", "error /volumes/0/series"}))
+        << "once, though two volumes show it";
+    write("color.json", R"({"version": 1, "volumes": [{"series": "ocean.vdb", "surfaces": [{"iso": 20,
+        "color": {"by": "series", "series": "changed.vdb", "range": [0, 30]}}]}]})");
+    EXPECT_EQ(problems("color.json", 1), (List{"error /volumes/0/surfaces/0/color/series",
+                                               "error /volumes/0/surfaces/0/color/series"}));
+    write("lost.json", R"({"version": 1, "volumes": [{"series": "ocean.vdb", "surfaces": [{"iso": 20,
+        "color": {"by": "series", "series": "none.vdb", "range": [0, 30]}}]}]})");
+    EXPECT_EQ(problems("lost.json", 1), List{"error /volumes/0/surfaces/0/color/series"});
 }
 
 }  // namespace

@@ -42,11 +42,10 @@ TimeSample sampleOf(const PlayedSeries& played, double position) {
 }  // namespace
 
 SceneExtractor::SceneExtractor(const Scene& scene, Options options) : scene_(scene), options_(options) {
-    std::vector<std::shared_ptr<const SeriesFile>> files;
     for (const Volume& volume : scene_.volumes) {
-        files.push_back(openSeries(volume));
-        checkGrid(volume, files.back()->description());
-        series_.push_back(playSeries(volume, scene_.time, files.back()));
+        const auto file = openSeries(volume);
+        checkGrid(volume, file->description());
+        series_.push_back(playSeries(volume, scene_.time, file));
     }
     for (std::size_t v = 0; v < scene_.volumes.size(); ++v) {
         const Volume& volume = scene_.volumes[v];
@@ -57,13 +56,12 @@ SceneExtractor::SceneExtractor(const Scene& scene, Options options) : scene_(sce
             source.name = volume.name;
             source.series = color->series;
             source.time = volume.time;
-            files.push_back(openSeries(source));
-            colorSeries_.push_back({v, s, playSeries(source, scene_.time, files.back())});
+            colorSeries_.push_back({v, s, playSeries(source, scene_.time, openSeries(source))});
         }
     }
     const auto frames =
         scene_.quality.pixels ? KeyFrameCache::Frames::withLevels : KeyFrameCache::Frames::plain;
-    cache_ = std::make_unique<KeyFrameCache>(std::move(files), options_.memoryBytes, frames);
+    cache_ = std::make_unique<KeyFrameCache>(files(), options_.memoryBytes, frames);
 }
 
 std::vector<PlannedWork> SceneExtractor::planAt(std::size_t volume, const TimeSample& sample) const {
@@ -140,6 +138,13 @@ std::vector<float> SceneExtractor::colorValues(const SurfaceMesh& mesh, const Ex
     const TimeSample sample = sampleOf(source, position);
     const TimedField values = fieldAt(series_.size() + index, sample, true, sample.fraction > 0);
     return sampleAtVertices(mesh, source.file->description().lattice, values, options_.threads);
+}
+
+std::vector<std::shared_ptr<const SeriesFile>> SceneExtractor::files() const {
+    std::vector<std::shared_ptr<const SeriesFile>> all;
+    for (const PlayedSeries& played : series_) all.push_back(played.file);
+    for (const ColorSeries& color : colorSeries_) all.push_back(color.played.file);
+    return all;
 }
 
 SceneMeshes SceneExtractor::extract(double position, const CameraPose& camera, int imageHeight) {

@@ -56,6 +56,8 @@ class SceneExtractor {
 
     /// One a volume, in the order of the scene.
     const std::vector<PlayedSeries>& series() const { return series_; }
+    /// Of the volumes, then of the surfaces that are coloured by one.
+    std::vector<std::shared_ptr<const SeriesFile>> files() const;
     const KeyFrameCache& cache() const { return *cache_; }
 
   private:
