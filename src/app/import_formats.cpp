@@ -67,11 +67,9 @@ constexpr decltype(ImportFormat::open) kOpenVtkImages = nullptr;
 constexpr decltype(ImportFormat::open) kOpenVtkSeries = nullptr;
 #endif
 
-/// The header of a classic file is checked before the library reads it; one of NetCDF-4 makes the HDF5 library
-/// loop or crash where a bit of it is wrong.
+/// The NetCDF and HDF5 libraries crash or loop on some damaged files.
 std::unique_ptr<FrameSource> openNetcdfFile(std::span<const path> files, const ImportOptions& options) {
     const path& file = onlyFile(files, "NetCDF");
-    if (startOf(file).starts_with("CDF")) return openNetcdf(file, options);
     return openIsolated(files, [file, options] { return openNetcdf(file, options); });
 }
 

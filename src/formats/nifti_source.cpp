@@ -166,7 +166,9 @@ OrientedAxes orientation(const NiftiHeader& header, const std::array<std::uint64
 void describeTimes(const NiftiHeader& header, std::uint64_t frames, RawFile& file) {
     const double step = header.pixdim(4);
     file.knowsTimes = frames > 1 && std::isfinite(step) && step > 0;
-    const double start = file.knowsTimes ? header.get<float>(136) : 0;
+    // An offset beside which a step vanishes says nothing.
+    const double offset = header.get<float>(136);
+    const double start = file.knowsTimes && std::abs(offset) < step * 0x1p50 ? offset : 0;
     for (std::uint64_t i = 0; i < frames; ++i)
         file.description.time.times.push_back(file.knowsTimes ? start + static_cast<double>(i) * step
                                                               : static_cast<double>(i));

@@ -1,5 +1,7 @@
 #include "volume/netcdf_classic.h"
 
+#include "base/error.h"
+
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -9,7 +11,13 @@ namespace isoglass {
 
 namespace {
 
-struct HeaderEnds {};
+/// The header ends early or contradicts itself.
+struct HeaderIsWrong {};
+
+/// The library copies longer ones over the end of the buffers that it asks its callers for.
+constexpr std::uint64_t kLongestName = 256;
+
+enum class Tag : std::uint64_t { none = 0, dimension = 10, variable = 11, attribute = 12 };
 
 /// External size of nc_type 1 .. 11: byte, char, short, int, float, double, then those of CDF-5.
 constexpr std::array<std::uint64_t, 12> kTypeBytes{0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
@@ -45,7 +53,7 @@ class HeaderReader {
         std::uint64_t value = 0;
         for (int i = 0; i < bytes; ++i) {
             const int byte = file_.get();
-            if (byte < 0) throw HeaderEnds{};
+            if (byte < 0) throw HeaderIsWrong{};
             value = value << 8 | static_cast<std::uint64_t>(byte);
         }
         return value;
@@ -56,32 +64,38 @@ class HeaderReader {
     /// A number of things that take at least a byte each: more than the file has are not believed.
     std::uint64_t count() {
         const std::uint64_t value = size();
-        if (value > fileBytes_) throw HeaderEnds{};
+        if (value > fileBytes_) throw HeaderIsWrong{};
         return value;
     }
 
-    std::uint64_t listLength() {
-        bigEndian(4);
-        return count();
+    std::uint64_t listLength(Tag expected) {
+        const auto tag = static_cast<Tag>(bigEndian(4));
+        const std::uint64_t length = count();
+        if (tag != expected && (tag != Tag::none || length > 0)) throw HeaderIsWrong{};
+        return length;
     }
 
     void skip(std::uint64_t bytes) {
         const std::uint64_t padded = (bytes + 3) / 4 * 4;
-        if (padded > fileBytes_) throw HeaderEnds{};
+        if (padded > fileBytes_) throw HeaderIsWrong{};
         file_.seekg(static_cast<std::streamoff>(padded), std::ios::cur);
     }
 
-    void skipName() { skip(count()); }
+    void skipName() {
+        const std::uint64_t length = size();
+        if (length > kLongestName) throw HeaderIsWrong{};
+        skip(length);
+    }
 
     std::uint64_t typeBytes() {
         const std::uint64_t type = bigEndian(4);
-        if (type >= kTypeBytes.size()) throw HeaderEnds{};
+        if (type == 0 || type >= kTypeBytes.size()) throw HeaderIsWrong{};
         return kTypeBytes[type];
     }
 
     std::vector<std::uint64_t> dimensionList() {
         std::vector<std::uint64_t> lengths;
-        for (std::uint64_t left = listLength(); left > 0; --left) {
+        for (std::uint64_t left = listLength(Tag::dimension); left > 0; --left) {
             skipName();
             lengths.push_back(size());
         }
@@ -89,7 +103,7 @@ class HeaderReader {
     }
 
     void skipAttributes() {
-        for (std::uint64_t left = listLength(); left > 0; --left) {
+        for (std::uint64_t left = listLength(Tag::attribute); left > 0; --left) {
             skipName();
             const std::uint64_t bytes = typeBytes();
             skip(count() * bytes);
@@ -98,19 +112,19 @@ class HeaderReader {
 
     std::vector<Extent> variableList(const std::vector<std::uint64_t>& lengths) {
         std::vector<Extent> extents;
-        for (std::uint64_t left = listLength(); left > 0; --left) {
+        for (std::uint64_t left = listLength(Tag::variable); left > 0; --left) {
             skipName();
             Extent extent{0, 1, false};
             for (std::uint64_t axis = 0, axes = count(); axis < axes; ++axis) {
                 const std::uint64_t dimension = size();
-                if (dimension >= lengths.size()) throw HeaderEnds{};
+                if (dimension >= lengths.size()) throw HeaderIsWrong{};
                 if (lengths[dimension] == 0)
                     extent.record = true;
                 else if (__builtin_mul_overflow(extent.slabBytes, lengths[dimension], &extent.slabBytes))
-                    throw HeaderEnds{};
+                    throw HeaderIsWrong{};
             }
             skipAttributes();
-            if (__builtin_mul_overflow(extent.slabBytes, typeBytes(), &extent.slabBytes)) throw HeaderEnds{};
+            if (__builtin_mul_overflow(extent.slabBytes, typeBytes(), &extent.slabBytes)) throw HeaderIsWrong{};
             size();
             extent.begin = bigEndian(version_ == 1 ? 4 : 8);
             extents.push_back(extent);
@@ -130,11 +144,11 @@ class HeaderReader {
             if (extent.record && records == 0) continue;
             std::uint64_t skipped = 0;
             if (extent.record && __builtin_mul_overflow(records - 1, recordBytes, &skipped))
-                throw HeaderEnds{};
+                throw HeaderIsWrong{};
             std::uint64_t variableEnd = 0;
             if (__builtin_add_overflow(extent.begin, extent.slabBytes, &variableEnd) ||
                 __builtin_add_overflow(variableEnd, skipped, &variableEnd))
-                throw HeaderEnds{};
+                throw HeaderIsWrong{};
             end = std::max(end, variableEnd);
         }
         return end;
@@ -149,8 +163,8 @@ class HeaderReader {
 
 std::optional<std::uint64_t> classicNetcdfSize(const std::filesystem::path& path) try {
     return HeaderReader(path).promisedSize();
-} catch (const HeaderEnds&) {
-    return std::nullopt;
+} catch (const HeaderIsWrong&) {
+    throw Error("its header ends early or contradicts itself", path.string(), "the file may be damaged");
 }
 
 }  // namespace isoglass

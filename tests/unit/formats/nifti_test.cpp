@@ -36,6 +36,18 @@ TEST_F(Nifti, EveryStepIsRead) {
     EXPECT_EQ(series.name, "scan");
 }
 
+TEST_F(Nifti, OffsetOfTheTimesCountsWhereTheStepIsNotLostInIt) {
+    std::string bytes = niftiBytes({.frames = 2});
+    constexpr std::size_t kOffset = 136;
+    const auto times = [&](float offset) {
+        put(bytes, kOffset, offset);
+        return openNifti(file(bytes), "")->description().time.times;
+    };
+    EXPECT_EQ(times(-7), (std::vector<double>{-7, -4.5}));
+    for (const float useless : {std::nanf(""), std::numeric_limits<float>::infinity(), -1e30f})
+        EXPECT_EQ(times(useless), (std::vector<double>{0, 2.5})) << useless;
+}
+
 TEST_F(Nifti, EitherByteOrderAndEitherPackingIsRead) {
     const SmallArray array;
     for (const bool bigEndian : {false, true}) {

@@ -40,6 +40,21 @@ TEST(NetcdfBadInput, OtherFormatsAreRefused) {
     }
 }
 
+/// The library copies a name of any length into a buffer for 256 bytes.
+TEST(NetcdfBadInput, NamesTooLongForTheLibraryAreRefused) {
+    for (const std::size_t length : {252, 260, 4000}) {
+        const auto word = [](std::size_t value) {
+            return std::string{static_cast<char>(value >> 24), static_cast<char>(value >> 16),
+                               static_cast<char>(value >> 8), static_cast<char>(value)};
+        };
+        std::ofstream(scratchFile("a.nc"), std::ios::binary)
+            << "CDF\x01" << word(0) << word(10) << word(1) << word(length) << std::string(length, 'd') << word(3)
+            << std::string(16, '\0');
+        const char* refusal = length > 256 ? "header ends early or contradicts itself" : "no variable";
+        EXPECT_TRUE(failsWith([] { open(scratchFile("a.nc")); }, {refusal, "a.nc"})) << length;
+    }
+}
+
 TEST(NetcdfBadInput, ClassicFileCutAnywhereIsRefused) {
     for (const int format : kClassicFormats) {
         NetcdfWriter writer(scratchFile("a.nc"), format);
