@@ -70,11 +70,14 @@ class TypedReader final : public SampleReader {
 
     void readFill() {
         const bool byteLong = sizeof(Stored) == 1;
-        if (byteLong && !file_.has(variable_, "_FillValue")) return;
+        const bool given = file_.has(variable_, "_FillValue");
+        if (byteLong && !given) return;
+        // The library copies the attribute as it is, whatever room its type and length need.
+        if (given && !isOneValue("_FillValue")) return addMissing("_FillValue");
         int noFill = 0;
         Stored fill{};
         file_.check(nc_inq_var_fill(file_.id(), variable_.id, &noFill, &fill), variable_);
-        if (!noFill || file_.has(variable_, "_FillValue")) missing_.push_back(static_cast<Value>(fill));
+        if (!noFill || given) missing_.push_back(static_cast<Value>(fill));
     }
 
     void readMissing() {
@@ -89,8 +92,19 @@ class TypedReader final : public SampleReader {
                 return;
             }
         }
-        for (const double number : file_.numbers(variable_, "missing_value"))
+        addMissing("missing_value");
+    }
+
+    void addMissing(const char* attribute) {
+        for (const double number : file_.numbers(variable_, attribute))
             if (const auto value = asValue(number)) missing_.push_back(*value);
+    }
+
+    /// Whether an attribute is one number of the variable's own type.
+    bool isOneValue(const char* attribute) const {
+        std::size_t length = 0;
+        return attributeType(file_, variable_, attribute) == variable_.type &&
+               nc_inq_attlen(file_.id(), variable_.id, attribute, &length) == NC_NOERR && length == 1;
     }
 
     /// The value that a number in an attribute stands for; nothing where no stored value can equal it.

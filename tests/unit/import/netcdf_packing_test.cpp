@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 
 namespace isoglass {
@@ -107,6 +109,20 @@ TEST(NetcdfPacking, DefaultFillValueIsMissing) {
     expectSamples(Packed(NC_SHORT).number("_FillValue", NC_SHORT, {0}).read({NC_FILL_SHORT, 0}),
                   {NC_FILL_SHORT, kNan});
     expectSamples(Packed(NC_BYTE).read({NC_FILL_BYTE, 1}), {NC_FILL_BYTE, 1});
+}
+
+/// The library does not write such an attribute, and reads it beyond the end of what it was given room for.
+TEST(NetcdfPacking, FillValuesOfAnotherTypeOrNumberAreFound) {
+    const std::filesystem::path path = scratchFile("packed.nc");
+    constexpr int kClassic = 0;
+    NetcdfWriter writer(path, kClassic);
+    writer.dimension("z", 2).dimension("y", 2).dimension("x", 2).variable("F", NC_SHORT, {"z", "y", "x"});
+    writer.numbers("F", "_FillWorth", NC_DOUBLE, {-7, 12, 0.5}).values("F", {-7, 12, 0, 1, 2, 3, 4, 5}).close();
+    std::ifstream file(path, std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    bytes.replace(bytes.find("_FillWorth"), 10, "_FillValue");
+    std::ofstream(path, std::ios::binary) << bytes;
+    expectSamples(test::readFrame(*openNetcdf(path, {}), 0), {kNan, kNan, 0, 1, 2, 3, 4, 5});
 }
 
 TEST(NetcdfPacking, EveryMissingValueOfAListIsMissing) {
