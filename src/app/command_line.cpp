@@ -49,17 +49,19 @@ void addImport(CLI::App& app, std::function<void()>& run) {
     auto command = std::make_shared<ImportCommand>();
     CLI::App* verb = app.add_subcommand("import", "Turn a foreign series into one of IsoGlass");
     verb->footer(listImportFormats());
-    verb->add_option("INPUT", command->inputs, "One file, or several of one format, a key frame each, in the order of the numbers in their "
-                     "names; with --times in the order given")
+    verb->add_option(
+            "INPUT", command->inputs,
+            "One file, or several of one format, a key frame each, in the order of the numbers in their "
+            "names; with --times in the order given")
         ->required();
     verb->add_option("-o,--output", command->out, "The series to write (.vdb)")->required();
     verb->add_option("--variable", command->options.variable,
                      "The variable to read, or a formula of several, such as 'speed = sqrt(U^2 + V^2)'");
     verb->add_option("--height", command->options.height,
                      "Variable or formula of the samples' world z, such as '(PH + PHB) / 9.81'");
-    CLI::Option* times =
-        verb->add_option("--times", command->options.times, "Times of the key frames, instead of the source's")
-            ->delimiter(',');
+    CLI::Option* times = verb->add_option("--times", command->options.times,
+                                          "Times of the key frames, instead of the source's")
+                             ->delimiter(',');
     verb->add_flag("--time-from-name", command->timeFromName,
                    "The number that tells the files' names apart is the time of each")
         ->excludes(times);
@@ -83,7 +85,8 @@ void addExport(CLI::App& app, std::function<void()>& run) {
     auto command = std::make_shared<ExportCommand>();
     CLI::App* verb = app.add_subcommand("export", "Write a series as plain numbers with a JSON description");
     verb->add_option("SERIES", command->series, "Series of IsoGlass (.vdb)")->required();
-    verb->add_option("-o,--output", command->out, "The description (.json); the samples go into a .raw beside it")
+    verb->add_option("-o,--output", command->out,
+                     "The description (.json); the samples go into a .raw beside it")
         ->required();
     verb->callback([command, &run] { run = [command] { runExport(*command); }; });
 }
@@ -146,6 +149,11 @@ void addMeshView(CLI::App& verb, const std::shared_ptr<MeshCommand>& command) {
     CLI::Option* pixels = verb.add_option("--pixels", command->cellPixels,
                                           "With --eye: size of a cell on the screen, in pixels");
     pixels->check(CLI::PositiveNumber);
+    CLI::Option* error = verb.add_option(
+        "--error-pixels", command->errorPixels,
+        "With --eye, instead of --pixels: displacement of the surface on the screen, in pixels; the "
+        "data choose the size of the cells");
+    error->check(CLI::PositiveNumber)->excludes(pixels);
     CLI::Option* size = verb.add_option_function<std::string>(
         "--size",
         [command](const std::string& text) {
@@ -157,8 +165,8 @@ void addMeshView(CLI::App& verb, const std::shared_ptr<MeshCommand>& command) {
     CLI::Option* fov = verb.add_option("--fov", command->fovDegrees,
                                        "With --eye: vertical angle of view in degrees; default: 30");
     fov->check(CLI::Range(1e-3, 179.0));
-    eye->needs(pixels)->needs(size);
-    for (CLI::Option* option : {pixels, size, fov}) option->needs(eye);
+    eye->needs(size);
+    for (CLI::Option* option : {pixels, error, size, fov}) option->needs(eye);
 }
 
 void addMesh(CLI::App& app, const CommonOptions& common, std::function<void()>& run) {
@@ -181,13 +189,18 @@ void addMesh(CLI::App& app, const CommonOptions& common, std::function<void()>& 
         ->needs(series);
     verb->add_flag("--below", command->insideIsBelow, "The inside is where the field is below the iso-value");
     addMeshView(*verb, command);
-    verb->callback([command, &common, &run] { run = [command, &common] { runMesh(*command, common); }; });
+    verb->callback([command, &common, &run] {
+        if (command->eye && !(command->cellPixels > 0 || command->errorPixels > 0))
+            throw CLI::ValidationError("--eye: add --pixels or --error-pixels, how fine the mesh has to be");
+        run = [command, &common] { runMesh(*command, common); };
+    });
 }
 
 void addValidate(CLI::App& app, std::function<void()>& run, int& status) {
     auto command = std::make_shared<ValidateCommand>();
     CLI::App* verb = app.add_subcommand(
-        "validate", "Say what is wrong with a scene and its series, or with a series: all of it, and where; reads every "
+        "validate",
+        "Say what is wrong with a scene and its series, or with a series: all of it, and where; reads every "
         "key frame");
     verb->add_option("FILE", command->file, "Scene file (.json) or series (.vdb)")->required();
     verb->add_flag("--json", command->json, "Print JSON");

@@ -67,10 +67,11 @@ struct MeshCommand {
     double iso = 0;
     std::optional<double> time;  ///< in the series' own units; the first key frame's where not given
     bool insideIsBelow = false;
-    bool wholeSeries = false;  ///< measures the surface over time, see `runMeshSeries`
-    int steps = 1;             ///< moments from one key frame to the next that are measured
+    bool wholeSeries = false;       ///< measures the surface over time, see `runMeshSeries`
+    int steps = 1;                  ///< moments from one key frame to the next that are measured
     std::optional<glm::dvec3> eye;  ///< in the coordinates of the series; full resolution where not given
-    double cellPixels = 0;          ///< with `eye`: size of a cell on the screen
+    double cellPixels = 0;          ///< with `eye`: size of a cell on the screen; this or the next
+    double errorPixels = 0;         ///< with `eye`: displacement of the surface on the screen
     glm::ivec2 size{0};             ///< with `eye`: of the image
     double fovDegrees = 30;
 };

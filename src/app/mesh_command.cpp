@@ -34,6 +34,7 @@ std::optional<View> viewOf(const MeshCommand& command) {
     view.eye = *command.eye;
     view.pixelsPerUnit = command.size.y / (2 * std::tan(glm::radians(command.fovDegrees) / 2));
     view.cellPixels = command.cellPixels;
+    view.errorPixels = command.errorPixels;
     return view;
 }
 
@@ -49,6 +50,7 @@ void runMesh(const MeshCommand& command, const CommonOptions& common) {
                                              {.iso = static_cast<float>(command.iso),
                                               .insideIsBelow = command.insideIsBelow,
                                               .view = viewOf(command),
+                                              .still = true,
                                               .threads = common.threads});
     const ExtractStats& stats = result.stats;
     if (result.mesh.empty()) {

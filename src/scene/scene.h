@@ -175,8 +175,8 @@ struct Lighting {
     friend bool operator==(const Lighting&, const Lighting&) = default;
 };
 
-/// Accuracy and speed that the user wants; at most one of `pixels` and `errorPixels`. Without `pixels`
-/// surfaces have full resolution, which satisfies any accuracy.
+/// Accuracy and speed that the user wants; at most one of `pixels` and `errorPixels`. Without either surfaces
+/// have full resolution, which satisfies any accuracy.
 struct Quality {
     std::optional<double> pixels;             ///< size of a cell on the screen
     std::optional<double> errorPixels;        ///< displacement of the surface on the screen

@@ -237,10 +237,6 @@ void readDetail(const JsonNode& node, Scene& scene) {
         errorPixels->fail("\"pixels\" and \"error_pixels\" exclude each other", "keep one");
     if (pixels) scene.quality.pixels = pixels->number(kPositive);
     if (errorPixels) scene.quality.errorPixels = errorPixels->number(kPositive);
-    if (errorPixels) {
-        scene.notes.push_back(
-            "detail: surfaces are drawn at full resolution, which keeps any error_pixels; pixels acts.");
-    }
 }
 
 void readQuality(const JsonNode& node, Scene& scene) {

@@ -75,7 +75,7 @@ void BlendedBrick::load(const LevelFields& fields, LevelBrick node) {
     const float ownSize = static_cast<float>(1 << node.level);
     blendedLevels_ = 0;
     if (node.level == fields.space.top()) return;
-    if (!(blendWeight(fields.sizes.largestByDistance(node) / ownSize) > 0)) return;
+    if (!(blendWeight(fields.sizes.largest(node) / ownSize) > 0)) return;
     blendedLevels_ = 1;
     loadCoarser(fields);
 }

@@ -62,7 +62,7 @@ BrickMesher::Form BrickMesher::chooseForm() {
     const SizeField& sizes = fields_.sizes;
     const FormRamp ramp(node_.level, fields_.space.top(), sizes.growthPerBrick());
     const float low = sizes.smallest(node_) / size;
-    const float high = sizes.largestByDistance(node_) / size;
+    const float high = sizes.largest(node_) / size;
     if (ramp.isTetrahedral(low, high)) return Form::tetrahedral;
     if (ramp.isCompact(low, high)) {
         if (options_.gate == 0) return Form::compact;

@@ -14,8 +14,8 @@ namespace isoglass {
 namespace {
 
 constexpr std::size_t kBricksPerTask = 32;
-/// See CellOptions; a mesh for a view may be one of many in time.
-constexpr float kGate = 0.03f;
+/// See CellOptions.
+constexpr float kGateInMotion = 0.03f;
 /// What a smooth surface makes in that many bricks, about 8^2 vertices and twice as many triangles a brick;
 /// more only costs a reallocation.
 constexpr std::size_t kVerticesPerTask = kBricksPerTask * kBrickSize * kBrickSize;
@@ -89,13 +89,6 @@ std::vector<TimedField> fieldsOfLevels(const LevelSpace& space, const TimedField
     return levels;
 }
 
-std::vector<const MissingDistance*> missingIn(const TimedField& field) {
-    std::vector<const MissingDistance*> missing;
-    if (field.fraction < 1) missing.push_back(&field.a->pyramid().missing());
-    if (field.fraction > 0) missing.push_back(&field.b->pyramid().missing());
-    return missing;
-}
-
 std::vector<LevelBrick> selectBricks(const LevelSpace& space, const SizeField& sizes,
                                      const std::vector<TimedField>& levels, float iso) {
     return Selector(space, sizes, levels, iso).run();
@@ -124,15 +117,15 @@ Extraction extractForView(const Lattice& lattice, const TimedField& field, const
     for (int k = 0; k < 3; ++k) {
         if (space.cells[k] == 0) return result;
     }
-    const SizeField sizes(space, *options.view, missingIn(field));
+    const SizeField sizes(space, *options.view, field, options.iso, options.threads);
     const LevelFields fields{space, sizes, fieldsOfLevels(space, field),
                              options.insideIsBelow ? -1.0f : 1.0f};
     result.stats.range = wholeRange(space, field);
     const std::vector<LevelBrick> bricks = selectBricks(space, sizes, fields.fields, options.iso);
     result.stats.touchedBricks = bricks.size();
 
-    std::vector<MeshPart> parts =
-        meshBricks(fields, bricks, {.iso = options.iso, .gate = kGate}, options.threads);
+    std::vector<MeshPart> parts = meshBricks(
+        fields, bricks, {.iso = options.iso, .gate = options.still ? 0 : kGateInMotion}, options.threads);
     for (const MeshPart& part : parts) result.stats.lostCells += part.lostCells;
     result.mesh = joinParts(parts, result.mesh.origin, options.threads);
     return result;

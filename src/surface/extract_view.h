@@ -16,9 +16,6 @@ namespace isoglass {
 /// The key frames of every level, level 0 first. Builds pyramids that are not there yet.
 std::vector<TimedField> fieldsOfLevels(const LevelSpace& space, const TimedField& field);
 
-/// How far missing samples are, for each key frame that takes part.
-std::vector<const MissingDistance*> missingIn(const TimedField& field);
-
 /// The bricks, of whatever level, that the surface seen from a view consists of, in an order that depends on
 /// nothing but the arguments: each as coarse as its sizes allow, those left out that the surface does not
 /// touch.

@@ -1,5 +1,7 @@
 #include "surface/size_field.h"
 
+#include "volume/pyramid.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,9 +18,14 @@ constexpr double kLargestGrowth = 0.9968;
 /// finer ones.
 constexpr float kMargin = 1.0f / 1024;
 
+/// The same for sizes by the error metric. Slower growth keeps more cells compact: they are where a brick's
+/// sizes lie between 1 + growth and 1.85 times its cells.
+constexpr double kErrorGrowth = 0.25;
+
 /// Growth of the size along one brick side, in a function that is linear in the tetrahedra between brick
 /// corners: its gradient is then at most sqrt(3) times this per 8 cells, as much as sizes may grow.
 constexpr float kGrowthPerBrick = static_cast<float>(kLargestGrowth / 3);
+constexpr float kErrorGrowthPerBrick = static_cast<float>(kErrorGrowth / 3);
 
 /// The largest cell in the world.
 struct CellExtent {
@@ -39,13 +46,22 @@ CellExtent largestCell(const LevelSpace& space, const View& view) {
 
 }  // namespace
 
+std::vector<const MissingDistance*> missingIn(const TimedField& field) {
+    std::vector<const MissingDistance*> missing;
+    if (field.fraction < 1) missing.push_back(&field.a->pyramid().missing());
+    if (field.fraction > 0) missing.push_back(&field.b->pyramid().missing());
+    return missing;
+}
+
 SizeField::SizeField(const LevelSpace& space, const View& view, std::vector<const MissingDistance*> missing)
     : missing_(std::move(missing)) {
     std::erase_if(missing_, [](const MissingDistance* distance) { return distance->empty(); });
     const CellExtent cell = largestCell(space, view);
     // Size per world length: what the view asks for, as far as it is allowed.
-    const double factor = std::min(view.cellPixels / (view.pixelsPerUnit * cell.edge),
-                                   kLargestGrowth / (kBrickSize * cell.diagonal));
+    const bool byError = view.errorPixels > 0;
+    const double cellPixels = byError ? view.errorPixels / kErrorPerCell : view.cellPixels;
+    const double factor = std::min(cellPixels / (view.pixelsPerUnit * cell.edge),
+                                   (byError ? kErrorGrowth : kLargestGrowth) / (kBrickSize * cell.diagonal));
     growthPerBrick_ =
         static_cast<float>(missing_.empty() ? factor * kBrickSize * cell.diagonal : kLargestGrowth);
     for (int k = 0; k < 3; ++k) {
@@ -59,9 +75,18 @@ SizeField::SizeField(const LevelSpace& space, const View& view, std::vector<cons
     }
 }
 
+SizeField::SizeField(const LevelSpace& space, const View& view, const TimedField& field, float iso,
+                     int threads)
+    : SizeField(space, view, missingIn(field)) {
+    if (!(view.errorPixels > 0)) return;
+    errors_.emplace(space, view, field, iso, kErrorGrowthPerBrick, threads);
+    growthPerBrick_ = std::max(growthPerBrick_, static_cast<float>(kErrorGrowth));
+}
+
 float SizeField::at(glm::ivec3 index) const {
     const float sum = squares_[0][index.x] + squares_[1][index.y] + squares_[2][index.z];
-    const float size = std::max(1.0f, std::sqrt(sum));
+    float size = std::max(1.0f, std::sqrt(sum));
+    if (errors_) size = std::min(size, errors_->at(index));
     return missing_.empty() ? size : std::min(size, missingLimit(index));
 }
 
@@ -92,6 +117,8 @@ float SizeField::smallest(LevelBrick node) const {
     }
     const float sum = squares_[0][index.x] + squares_[1][index.y] + squares_[2][index.z];
     float size = std::max(1.0f, std::sqrt(sum));
+    if (errors_)
+        size = std::min(size, errors_->smallest(node.level, node.brick * (kBrickSize << node.level)));
     for (const MissingDistance* distance : missing_) {
         const int bricks = distance->smallest(node.level, node.brick);
         size = std::min(size, 1 + kGrowthPerBrick * static_cast<float>(bricks));
@@ -107,6 +134,15 @@ float SizeField::largestByDistance(LevelBrick node) const {
     }
     const float sum = squares_[0][index.x] + squares_[1][index.y] + squares_[2][index.z];
     return std::max(1.0f, std::sqrt(sum));
+}
+
+float SizeField::largest(LevelBrick node) const {
+    const float byDistance = largestByDistance(node);
+    if (!errors_) return byDistance;
+    // In between sizes are rounded differently than at the corners of which this is the largest.
+    constexpr float kRounded = 1 + 0x1p-20f;
+    return std::min(byDistance,
+                    kRounded * errors_->largest(node.level, node.brick * (kBrickSize << node.level)));
 }
 
 bool SizeField::isCoarseEnough(LevelBrick node) const {

@@ -16,8 +16,11 @@ struct View {
     /// resolution. At most about a fourteenth of `pixelsPerUnit` acts, since detail may not change faster
     /// over the lattice than levels can.
     double cellPixels = 0;
+    /// Largest displacement of the surface on the screen in pixels; takes the place of `cellPixels` where it
+    /// is above 0. An estimate from the data, see ErrorSizes.
+    double errorPixels = 0;
 
-    bool wantsDetail() const { return cellPixels > 0; }
+    bool wantsDetail() const { return cellPixels > 0 || errorPixels > 0; }
 };
 
 }  // namespace isoglass

@@ -1,6 +1,7 @@
 #include "volume/key_frame.h"
 
 #include "basis/parallel.h"
+#include "volume/detail_error.h"
 #include "volume/pyramid.h"
 
 #include <glm/common.hpp>
@@ -72,6 +73,12 @@ KeyFrame::~KeyFrame() = default;
 const Pyramid& KeyFrame::pyramid() const {
     std::call_once(pyramidOnce_, [this] { pyramid_ = std::make_unique<const Pyramid>(*this); });
     return *pyramid_;
+}
+
+const DetailError& KeyFrame::detailError() const {
+    std::call_once(detailErrorOnce_,
+                   [this] { detailError_ = std::make_unique<const DetailError>(*this, pyramid()); });
+    return *detailError_;
 }
 
 void KeyFrame::computeRanges(glm::bvec3 periodic) {

@@ -12,6 +12,7 @@
 
 namespace isoglass {
 
+class DetailError;
 class Pyramid;
 
 /// Samples along one side of a brick; one OpenVDB leaf.
@@ -81,6 +82,9 @@ class KeyFrame {
     /// The coarser levels, built by the first call: about a seventh of the samples is copied. Any thread,
     /// but not from inside a parallel loop.
     const Pyramid& pyramid() const;
+    /// What the coarser levels lack, with the pyramid built by the first call: looks at every sample. Called
+    /// as `pyramid` is.
+    const DetailError& detailError() const;
 
   private:
     void computeRanges(glm::bvec3 periodic);
@@ -95,6 +99,8 @@ class KeyFrame {
     std::shared_ptr<const KeyFrame> heights_;
     mutable std::once_flag pyramidOnce_;
     mutable std::unique_ptr<const Pyramid> pyramid_;
+    mutable std::once_flag detailErrorOnce_;
+    mutable std::unique_ptr<const DetailError> detailError_;
 };
 
 }  // namespace isoglass

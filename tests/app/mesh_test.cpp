@@ -77,11 +77,25 @@ TEST_F(Mesh, ViewMakesItCoarserWithTheDistance) {
     EXPECT_GT(near, 5000u);
     EXPECT_LT(2 * triangles("32,32,220"), near);
     EXPECT_LT(5 * triangles("32,32,500"), near);
+    // Values are rounded to whole numbers, three a sample: the surface is rough by a sixth of a cell, which
+    // takes 7 pixels seen from near by, and 0.08 from 3000 cells away.
+    const auto byError = [&](const std::string& eye) {
+        const RunResult result = run({"mesh", "ball.vdb", "--iso", "180", "-o", "view.ply", "--eye", eye,
+                                      "--error-pixels", "0.5", "--size", "1280x720"});
+        return numberBefore(result.out, "triangles");
+    };
+    EXPECT_GT(byError("32,32,64"), 5000u);
+    EXPECT_LT(5 * byError("32,32,3000"), near);
 }
 
 TEST_F(Mesh, ViewIsGivenWhole) {
     for (const std::vector<std::string>& part :
-         {std::vector<std::string>{"--eye", "1,2,3"}, {"--pixels", "1"}, {"--fov", "40"}}) {
+         {std::vector<std::string>{"--eye", "1,2,3"},
+          {"--pixels", "1"},
+          {"--error-pixels", "1"},
+          {"--fov", "40"},
+          {"--eye", "1,2,3", "--size", "64x64"},
+          {"--eye", "1,2,3", "--size", "64x64", "--pixels", "1", "--error-pixels", "1"}}) {
         std::vector<std::string> arguments = {"mesh", "ocean.vdb", "--iso", "15", "-o", "view.ply"};
         arguments.insert(arguments.end(), part.begin(), part.end());
         EXPECT_EQ(isoglass(arguments).status, 2) << part[0];

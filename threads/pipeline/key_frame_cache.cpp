@@ -1,6 +1,7 @@
 #include "pipeline/key_frame_cache.h"
 
 #include "base/error.h"
+#include "volume/detail_error.h"
 #include "volume/pyramid.h"
 
 #include <algorithm>
@@ -19,7 +20,10 @@ std::string sizeText(std::size_t bytes) {
 std::size_t bytesOf(const SeriesFile& series, std::size_t frame, KeyFrameCache::Frames kept) {
     const std::size_t plain = series.description().frames[frame].bytes;
     if (kept == KeyFrameCache::Frames::plain) return plain;
-    return plain + Pyramid::largestBytes(series.description().lattice.dims(), plain);
+    const Lattice& lattice = series.description().lattice;
+    const std::size_t errors =
+        kept == KeyFrameCache::Frames::withErrors ? DetailError::largestBytes(lattice.cells()) : 0;
+    return plain + Pyramid::largestBytes(lattice.dims(), plain) + errors;
 }
 
 std::size_t largestFrame(const SeriesFile& series, KeyFrameCache::Frames kept) {
@@ -136,6 +140,7 @@ std::shared_ptr<const KeyFrame> KeyFrameCache::read(Lock& lock, FrameKey key) {
     try {
         frame = series_[key.series]->read(key.frame);
         if (kept_ == Frames::withLevels) frame->pyramid();
+        if (kept_ == Frames::withErrors) frame->detailError();
     } catch (...) {
         failure = std::current_exception();
     }

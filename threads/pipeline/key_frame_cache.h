@@ -33,6 +33,7 @@ class KeyFrameCache {
     enum class Frames {
         plain,
         withLevels,  ///< its pyramid, too: built where it is read, and counted with what it may take at most
+        withErrors,  ///< and what the coarser levels lack, likewise
     };
 
     /// Throws Error where the budget cannot hold two key frames of every series: one moment between

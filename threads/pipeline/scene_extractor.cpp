@@ -59,8 +59,8 @@ SceneExtractor::SceneExtractor(const Scene& scene, Options options) : scene_(sce
             colorSeries_.push_back({v, s, playSeries(source, scene_.time, openSeries(source))});
         }
     }
-    const auto frames =
-        scene_.quality.pixels ? KeyFrameCache::Frames::withLevels : KeyFrameCache::Frames::plain;
+    using enum KeyFrameCache::Frames;
+    const auto frames = scene_.quality.errorPixels ? withErrors : scene_.quality.pixels ? withLevels : plain;
     cache_ = std::make_unique<KeyFrameCache>(files(), options_.memoryBytes, frames);
 }
 
@@ -117,6 +117,7 @@ View SceneExtractor::viewOf(const Volume& volume, const CameraPose& camera, int 
     view.worldPerUnit = glm::abs(volume.place.scale);
     view.pixelsPerUnit = imageHeight / (2 * std::tan(scene_.camera.fovDegrees * M_PI / 360));
     view.cellPixels = scene_.quality.pixels.value_or(0);
+    view.errorPixels = scene_.quality.errorPixels.value_or(0);
     return view;
 }
 
@@ -174,6 +175,7 @@ SceneMeshes SceneExtractor::extract(double position, const CameraPose& camera, i
                                                    {.iso = static_cast<float>(surface.iso),
                                                     .insideIsBelow = surface.inside == Inside::below,
                                                     .view = isCut ? std::nullopt : std::optional(view),
+                                                    .still = scene_.time.frameCount() == 1,
                                                     .threads = options_.threads,
                                                     .clip = planes,
                                                     .closed = volume.closed});

@@ -129,7 +129,7 @@ struct Selected {
 
     explicit Selected(const LevelCase& c)
         : space(c.lattice),
-          sizes(space, *c.options.view, missingIn(c.field)),
+          sizes(space, *c.options.view, c.field, c.options.iso, 1),
           fields{space, sizes, fieldsOfLevels(space, c.field), c.options.insideIsBelow ? -1.0f : 1.0f},
           bricks(selectBricks(space, sizes, fields.fields, c.options.iso)) {}
     Selected(const Selected&) = delete;

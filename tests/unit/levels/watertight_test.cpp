@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -44,6 +45,30 @@ TEST(Levels, RandomViewsAreWatertight) {
     for (int level = 0; level <= 2; ++level) EXPECT_GT(totals.bricks[level], 50u) << level;
 }
 
+/// Makes the case one of the error metric, from so much that all is coarse to nothing.
+void useErrorMetric(LevelCase& c, std::uint32_t seed) {
+    test::Dice dice(seed + 1000);
+    View& view = *c.options.view;
+    view.cellPixels = 0;
+    view.errorPixels = std::exp(dice.between(std::log(1.0), std::log(300.0)));
+}
+
+TEST(Levels, RandomViewsByTheErrorMetricAreWatertight) {
+    Totals totals;
+    constexpr std::array kSmoothKinds = {Kind::blobs, Kind::gyroid, Kind::rough, Kind::blobs, Kind::steps};
+    constexpr std::array<glm::ivec3, 4> kLargeDims = {
+        {{90, 70, 81}, {65, 65, 65}, {130, 19, 60}, {70, 70, 2}}};
+    for (std::uint32_t seed = 0; seed < viewCount() && !HasFailure(); ++seed) {
+        LevelCase c = test::makeLevelCase(seed + 2000, kSmoothKinds[seed % kSmoothKinds.size()],
+                                          kLargeDims[seed % kLargeDims.size()]);
+        useErrorMetric(c, seed);
+        expectWatertight(c, totals);
+    }
+    std::printf("%zu views, %zu triangles, bricks by%s\n", totals.views, totals.triangles,
+                levelCounts(totals).c_str());
+    for (int level = 0; level <= 2; ++level) EXPECT_GT(totals.bricks[level], 20u) << level;
+}
+
 // Each hole of a few samples, or a slab as land under an ocean; in one of the key frames or in both.
 TEST(Levels, ViewsOfFieldsWithMissingSamplesAreWatertightBesideThem) {
     Totals totals;
@@ -73,6 +98,7 @@ TEST(Levels, ViewsOfFieldsWithMissingSamplesAreWatertightBesideThem) {
             }
         }
         test::rebuild(c);
+        if (seed % 2 == 1) useErrorMetric(c, seed);
         expectWatertight(c, totals);
     }
     std::printf("%zu views, %zu triangles, bricks by%s\n", totals.views, totals.triangles,

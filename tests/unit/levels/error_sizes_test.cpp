@@ -1,0 +1,162 @@
+#include "surface/error_sizes.h"
+
+#include "support/mesh_distance.h"
+#include "unit/levels/balance_check.h"
+#include "unit/levels/level_case.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace isoglass {
+namespace {
+
+using test::Dice;
+using test::Kind;
+using test::LevelCase;
+
+LevelCase errorCase(std::uint32_t seed, Kind kind, glm::ivec3 dims, double errorPixels) {
+    LevelCase c = test::makeLevelCase(seed, kind, dims);
+    c.options.view->cellPixels = 0;
+    c.options.view->errorPixels = errorPixels;
+    return c;
+}
+
+SizeField sizesOf(const LevelCase& c, const LevelSpace& space, const View& view) {
+    return {space, view, c.field, c.options.iso, 1};
+}
+
+TEST(ErrorSizes, GrowNoFasterThanLevelsCan) {
+    for (std::uint32_t seed = 0; seed < 10; ++seed) {
+        const auto kind = static_cast<Kind>(seed % test::kKinds);
+        const LevelCase c = errorCase(seed, kind, {70, 57, 64}, 1 << seed % 6);
+        const LevelSpace space(c.lattice);
+        test::expectBalanced(space, sizesOf(c, space, *c.options.view));
+    }
+}
+
+/// Largest difference of the sizes at every fourth vertex, in units of the size.
+double largestChange(const LevelSpace& space, const SizeField& a, const SizeField& b) {
+    double largest = 0;
+    glm::ivec3 i;
+    for (i.z = 0; i.z <= space.cells.z; i.z += 4)
+        for (i.y = 0; i.y <= space.cells.y; i.y += 4)
+            for (i.x = 0; i.x <= space.cells.x; i.x += 4)
+                largest = std::max<double>(largest, std::abs(a.at(i) / b.at(i) - 1));
+    return largest;
+}
+
+// Sizes are piecewise smooth in eye and time, so that from some step on changes go with it: by a factor of
+// 100 they shrink to a hundredth, or, where the step before reached over a kink, at most that of the steepest
+// piece. A jump would stay.
+void expectShrinking(double coarse, double fine, const char* what) {
+    // Sizes are floats, computed in about ten roundings, of numbers that a level's difference magnifies by
+    // 1 / kErrorPerCell at most.
+    constexpr double kRounding = 10 * 0x1p-24 / kErrorPerCell;
+    EXPECT_LE(fine, 0.1 * coarse + kRounding) << what;
+}
+
+TEST(ErrorSizes, ChangeWithTheEyeAndShrinkWithItsStep) {
+    for (const Kind kind : {Kind::blobs, Kind::gyroid, Kind::rough}) {
+        const LevelCase c = errorCase(3, kind, {65, 57, 61}, 8);
+        const LevelSpace space(c.lattice);
+        Dice dice(5);
+        std::array<double, 2> change{};
+        for (int trial = 0; trial < 6; ++trial) {
+            View view = *c.options.view;
+            glm::dvec3 direction;
+            for (int k = 0; k < 3; ++k) {
+                view.eye[k] = dice.between(-60, 120);
+                direction[k] = dice.between(-1, 1);
+            }
+            const SizeField here = sizesOf(c, space, view);
+            for (int i = 0; i < 2; ++i) {
+                View moved = view;
+                moved.eye += (i == 0 ? 0.1 : 0.001) * glm::normalize(direction);
+                change[i] = std::max(change[i], largestChange(space, here, sizesOf(c, space, moved)));
+            }
+        }
+        EXPECT_GT(change[0], 1e-3) << "the eye's step is seen at all";
+        expectShrinking(change[0], change[1], "eye");
+    }
+}
+
+// Inside an interval and across a key frame: what an interval says of its end is what the next says of its
+// start.
+TEST(ErrorSizes, ChangeWithTimeAndShrinkWithItsStep) {
+    for (const Kind kind : {Kind::blobs, Kind::gyroid, Kind::rough}) {
+        LevelCase c = errorCase(7, kind, {65, 57, 61}, 1);
+        c.options.view->eye = {-50, 20, 90};
+        LevelCase next = c;
+        next.samples = {c.samples[1], c.samples[0]};
+        test::rebuild(next);
+        const LevelSpace space(c.lattice);
+        const auto at = [&](LevelCase& which, float fraction) {
+            which.field.fraction = fraction;
+            return sizesOf(which, space, *which.options.view);
+        };
+        std::array<double, 2> inside{};
+        std::array<double, 2> across{};
+        for (int i = 0; i < 2; ++i) {
+            const float step = i == 0 ? 0.1f : 0.001f;
+            for (const float start : {0.2f, 0.45f, 0.7f})
+                inside[i] = std::max(inside[i], largestChange(space, at(c, start), at(c, start + step)));
+            across[i] = largestChange(space, at(c, 1 - step / 2), at(next, step / 2));
+        }
+        EXPECT_GT(inside[0] + across[0], 1e-3) << "the step is seen at all";
+        expectShrinking(inside[0], inside[1], "inside");
+        expectShrinking(across[0], across[1], "across");
+        EXPECT_EQ(largestChange(space, at(c, 1), at(next, 0)), 0);
+    }
+}
+
+TEST(ErrorSizes, NoiseStaysAtFullResolution) {
+    LevelCase c = errorCase(11, Kind::noise, {41, 41, 41}, 0.5);
+    c.options.view->eye = {-300, 20, 20};
+    ExtractOptions finest = c.options;
+    finest.view = View{.cellPixels = 1e-6};
+    const SurfaceMesh mesh = extractSurface(c.lattice, c.field, c.options).mesh;
+    EXPECT_EQ(mesh.triangles, extractSurface(c.lattice, c.field, finest).mesh.triangles);
+    EXPECT_FALSE(mesh.empty());
+}
+
+// A smooth field keeps the word, and is cheaper for it.
+TEST(ErrorSizes, SmoothSurfacesStayWithinTheError) {
+    LevelCase c = errorCase(13, Kind::blobs, {121, 121, 121}, 0.5);
+    c.field.fraction = 0.3f;
+    c.options.iso = 0.5f;
+    c.options.insideIsBelow = false;
+    View& view = *c.options.view;
+    view.pixelsPerUnit = 700;
+    view.eye = {60, -400, 150};
+    ExtractOptions finest = c.options;
+    finest.view.reset();
+    const SurfaceMesh full = extractSurface(c.lattice, c.field, finest).mesh;
+    for (const double error : {0.25, 0.5, 1.0, 2.0}) {
+        view.errorPixels = error;
+        const SurfaceMesh mesh = extractSurface(c.lattice, c.field, c.options).mesh;
+        std::vector<double> pixels;
+        const auto add = [&](const SurfaceMesh& from, const SurfaceMesh& to) {
+            const test::MeshDistance distance(to, 4);
+            for (const glm::vec3& position : from.positions)
+                pixels.push_back(distance.at(position, 16) * view.pixelsPerUnit /
+                                 glm::length(view.eye - glm::dvec3(position)));
+        };
+        add(mesh, full);
+        add(full, mesh);
+        std::ranges::sort(pixels);
+        EXPECT_LE(pixels[pixels.size() * 999 / 1000], error);
+        std::printf("%g pixels: %zu triangles of %zu, 99.9 %% within %.3f\n", error, mesh.triangleCount(),
+                    full.triangleCount(), pixels[pixels.size() * 999 / 1000]);
+        if (error >= 2) {
+            EXPECT_LT(3 * mesh.triangleCount(), full.triangleCount());
+        }
+    }
+}
+
+}  // namespace
+}  // namespace isoglass
