@@ -4,6 +4,8 @@
 #include "threads/damage.h"
 #include "threads/eventually.h"
 #include "unit/volume/series_fixture.h"
+#include "volume/detail_error.h"
+#include "volume/pyramid.h"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -107,6 +109,19 @@ class KeyFrameCacheTest : public testing::Test {
     /// Changes samples of the last key frame: they end the file.
     void damageLastFrame(std::size_t series) { test::damageEnd(paths_[series]); }
 };
+
+TEST_F(KeyFrameCacheTest, CountsLevelsAndWhatTheyLackWithTheMostTheyMayTake) {
+    std::size_t counted = bytesOf({0, 5});
+    for (const auto kept : {KeyFrameCache::Frames::withLevels, KeyFrameCache::Frames::withErrors}) {
+        KeyFrameCache cache(files_, std::size_t{1} << 30, kept);
+        const auto frame = cache.get({0, 5});
+        const bool errors = kept == KeyFrameCache::Frames::withErrors;
+        EXPECT_GE(cache.bytes(),
+                  frame->bytes() + frame->pyramid().bytes() + (errors ? frame->detailError().bytes() : 0));
+        EXPECT_GT(cache.bytes(), counted);
+        counted = cache.bytes();
+    }
+}
 
 TEST_F(KeyFrameCacheTest, GivesEveryKeyFrameAndCountsItsMemory) {
     KeyFrameCache cache(files_, 4 * largestFrame());
