@@ -147,7 +147,7 @@ bool guarded(const Channel& channel, const std::string& place, const Action& act
 
 /// The text form wants records of the key frames, which are not known yet.
 std::string textOf(SeriesDescription series) {
-    FrameRecord unknown{};
+    FrameRecord unknown;
     if (series.lattice.heights) unknown.heightsChecksum = 0;
     series.frames.assign(series.time.times.size(), unknown);
     return toJson(series);

@@ -4,6 +4,7 @@
 #include "volume/time_axis.h"
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,8 +13,8 @@ namespace isoglass {
 
 /// Smallest and largest value of a set of samples; an empty set has min = +inf, max = -inf.
 struct ValueRange {
-    float min;
-    float max;
+    float min = std::numeric_limits<float>::infinity();
+    float max = -std::numeric_limits<float>::infinity();
 
     friend bool operator==(const ValueRange&, const ValueRange&) = default;
 };
