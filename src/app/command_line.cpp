@@ -99,6 +99,8 @@ void addInfo(CLI::App& app, std::function<void()>& run) {
     verb->callback([command, &run] { run = [command] { runInfo(*command); }; });
 }
 
+constexpr const char* kShowLevels = "Colour the surfaces by the level of detail of their cells";
+
 void addRender(CLI::App& app, const CommonOptions& common, std::function<void()>& run) {
     auto command = std::make_shared<RenderCommand>();
     CLI::App* verb = app.add_subcommand("render", "Render a scene to pictures or a video, without a window");
@@ -121,6 +123,7 @@ void addRender(CLI::App& app, const CommonOptions& common, std::function<void()>
             [command](const std::string& name) { command->method = transparencyMethodNamed(name); },
             "Composition: auto, 2-pass, 3-pass, 4-pass, peel or exact")
         ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())));
+    verb->add_flag("--show-levels", command->showLevels, kShowLevels);
     verb->callback([command, &common, &run] { run = [command, &common] { runRender(*command, common); }; });
 }
 
@@ -132,6 +135,7 @@ void addView(CLI::App& app, const CommonOptions& common, std::function<void()>& 
     verb->add_option_function<std::string>(
         "--size", [command](const std::string& text) { command->size = imageSize(text); },
         "Size of the window, WxH; default: that of the scene's image");
+    verb->add_flag("--show-levels", command->showLevels, kShowLevels);
     verb->footer("In the window:\n" + std::string(viewerHelp()));
     verb->callback([command, &common, &run] { run = [command, &common] { runView(*command, common); }; });
 }

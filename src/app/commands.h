@@ -52,12 +52,14 @@ struct RenderCommand {
     std::optional<FrameRange> frames;
     std::optional<glm::ivec2> size;
     std::optional<TransparencyMethod> method;
+    bool showLevels = false;  ///< see colorByLevel
 };
 void runRender(const RenderCommand& command, const CommonOptions& common);
 
 struct ViewCommand {
     std::filesystem::path file;      ///< a scene or a series
     std::optional<glm::ivec2> size;  ///< of the window; the scene's image where not given
+    bool showLevels = false;         ///< see colorByLevel
 };
 void runView(const ViewCommand& command, const CommonOptions& common);
 

@@ -135,8 +135,9 @@ void print(const Json& plan) {
 
 void runPlan(const PlanCommand& command, const CommonOptions& common) {
     const Scene scene = loadScene(command.scene);
-    SceneExtractor extractor(scene, {.memoryBytes = common.memoryBytes, .threads = common.threads});
-    const SceneMeshes meshes = extractor.extract(0, scene.camera.poseAt(0), scene.image.size.y);
+    SceneExtractor extractor(scene,
+                             {.memoryBytes = common.memoryBytes, .threads = common.threads, .seenMargin = 0});
+    const SceneMeshes meshes = extractor.extract(0, scene.camera.poseAt(0), scene.image.size);
     const Json plan = planJson(scene, meshes.work, measure(scene, meshes));
     if (command.json) {
         std::cout << plan.dump(2) << '\n';

@@ -41,6 +41,7 @@ void applyOverrides(const RenderCommand& command, Scene& scene) {
         }
         scene.image.size = size;
     }
+    if (command.showLevels) colorByLevel(scene);
     if (command.method) scene.transparency.method = *command.method;
     if (scene.transparency.reproducible && scene.transparency.method == TransparencyMethod::twoPass) {
         throw Error("the scene is to be reproducible, and 2-pass depends on the order of the surfaces",
@@ -64,7 +65,9 @@ class Notes {
         for (const ExtractedSurface& surface : frame.meshes.surfaces) {
             const std::string volume = "/volumes/" + std::to_string(surface.volume);
             const auto& work = frame.meshes.work[surface.volume];
-            if (surface.mesh->empty() && isNeeded(work, WorkKind::extraction, surface.surface)) {
+            const bool mayBeElsewhere = surface.stats.leftOut;
+            if (surface.mesh->empty() && !mayBeElsewhere &&
+                isNeeded(work, WorkKind::extraction, surface.surface)) {
                 sayOnce(volume + "/surfaces/" + std::to_string(surface.surface) + ": the surface is empty",
                         rangeText(surface.stats.range) + when);
             }
@@ -139,7 +142,8 @@ void runRender(const RenderCommand& command, const CommonOptions& common) {
     }
     for (const std::string& note : scene.notes) printNote(note);
     const FrameRange range = chooseFrames(command, output, scene);
-    SceneExtractor extractor(scene, {.memoryBytes = common.memoryBytes, .threads = common.threads});
+    SceneExtractor extractor(scene,
+                             {.memoryBytes = common.memoryBytes, .threads = common.threads, .seenMargin = 0});
     const std::unique_ptr<FrameSink> sink =
         makeSink(output, scene, range, [&] { return renderIdentity(scene, extractor); });
     renderMissing(scene, extractor, range, *sink);

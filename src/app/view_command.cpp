@@ -19,7 +19,8 @@ void check(glm::ivec2 size) {
 }  // namespace
 
 void runView(const ViewCommand& command, const CommonOptions& common) {
-    const SceneExtractor::Options options{.memoryBytes = common.memoryBytes, .threads = common.threads};
+    const OpenOptions options{.scene = {.memoryBytes = common.memoryBytes, .threads = common.threads},
+                              .showLevels = command.showLevels};
     const glm::ivec2 firstSize = command.size.value_or(ImageSettings().size);
     check(firstSize);
     // Without a display there is no use in opening anything.

@@ -78,6 +78,21 @@ ViewAxes viewAxes(const CameraView& camera) {
     return {right, glm::cross(right, forward), forward};
 }
 
+std::array<glm::dvec4, 5> viewPlanes(const CameraView& camera, double margin) {
+    const ViewAxes axes = viewAxes(camera);
+    const double height = tangentOfHalfHeight(camera);
+    // Half the picture is 1; a pixel of it is 2 / size.
+    const glm::dvec2 reach = 1.0 + 2.0 * (margin + 1.0 / glm::dvec2(camera.size));
+    const glm::dvec3 x = axes.forward * (height * aspect(camera) * reach.x);
+    const glm::dvec3 y = axes.forward * (height * reach.y);
+    const auto through = [&](const glm::dvec3& inward) {
+        const glm::dvec3 normal = glm::normalize(inward);
+        return glm::dvec4(normal, -glm::dot(normal, camera.eye));
+    };
+    return {through(x - axes.right), through(x + axes.right), through(y - axes.up), through(y + axes.up),
+            through(axes.forward)};
+}
+
 void Bounds::include(const Bounds& other) {
     low = glm::min(low, other.low);
     high = glm::max(high, other.high);

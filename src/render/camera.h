@@ -4,6 +4,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <array>
 #include <optional>
@@ -31,11 +32,18 @@ struct ViewAxes {
 /// of view is not between 0 and 180 degrees.
 ViewAxes viewAxes(const CameraView& camera);
 
+/// The planes a x + b y + c z + d >= 0, in the world, that bound what a picture can show: its four sides,
+/// each moved outwards by a pixel (a sample may lie anywhere in its pixel) and by `margin` times the
+/// picture's width or height, and the one through the eye. Normals have length 1. Errors as `viewAxes`.
+std::array<glm::dvec4, 5> viewPlanes(const CameraView& camera, double margin);
+
 /// An axis-aligned box.
 struct Bounds {
     glm::dvec3 low, high;
 
     void include(const Bounds& other);
+
+    friend bool operator==(const Bounds&, const Bounds&) = default;
 };
 
 /// The box around an affinely mapped box.

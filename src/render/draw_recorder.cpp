@@ -41,7 +41,8 @@ glm::dmat4 clipFromEyeFor(const FrameDescription& frame, const std::vector<const
                           const MeshStore& meshes) {
     std::optional<Bounds> drawn;
     for (const SurfaceDraw* draw : visible) {
-        const Bounds bounds = boundsWorld(meshes.get(draw->mesh), draw->worldFromSeries);
+        const Bounds bounds = draw->boundsSeries ? transformed(draw->worldFromSeries, *draw->boundsSeries)
+                                                 : boundsWorld(meshes.get(draw->mesh), draw->worldFromSeries);
         if (drawn) {
             drawn->include(bounds);
         } else {

@@ -24,6 +24,10 @@ struct SurfaceDraw {
     /// Opacity by the angle of view takes the place of `opacity`; never opaque.
     std::optional<PreparedShell> shell{};
 
+    /// Holds the mesh, in series coordinates; the mesh's own box where not given. Pictures of parts of one
+    /// surface are equal where they show the same, bit by bit, when they are given the same box.
+    std::optional<Bounds> boundsSeries{};
+
     /// Moves the surface towards the eye by 2^-14 of its distance a rank, which settles what is in front
     /// where flat parts of several surfaces lie in one plane.
     int depthRank = 0;

@@ -12,7 +12,7 @@ namespace {
 
 using Word = std::string_view;
 
-constexpr std::array kValues{Word("series"), Word("value"), Word("curvature")};
+constexpr std::array kValues{Word("series"), Word("value"), Word("curvature"), Word("level")};
 
 FieldColor readFieldColor(const JsonNode& node, const std::filesystem::path& baseFolder) {
     FieldColor color;

@@ -8,8 +8,9 @@ namespace isoglass {
 /// Colour of a surface by a value at each of its points, through a colour map.
 struct FieldColor {
     /// Where the value comes from: another series at the same place and time; the volume's own field, which
-    /// is the iso-value on the surface and varies on its caps; the surface's mean curvature.
-    enum class By { series, value, curvature };
+    /// is the iso-value on the surface and varies on its caps; the surface's mean curvature; the level of
+    /// detail of its cells, to look at the mesh.
+    enum class By { series, value, curvature, level };
 
     By by = By::value;
     std::filesystem::path series{};  ///< only for `series`; played by the volume's clock

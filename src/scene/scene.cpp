@@ -1,5 +1,7 @@
 #include "scene/scene.h"
 
+#include "scene/color_map.h"
+
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -21,6 +23,17 @@ glm::dmat4 worldFromSeries(const Placement& place) {
     glm::dmat4 matrix = glm::translate(glm::dmat4(1), place.translate);
     if (place.rotate.w != 0) matrix = glm::rotate(matrix, glm::radians(place.rotate.w), glm::normalize(axis));
     return glm::scale(matrix, place.scale);
+}
+
+void colorByLevel(Scene& scene) {
+    constexpr double kHighestLevel = 4;
+    const auto names = colorMapNames();
+    const auto rainbow = static_cast<std::size_t>(std::ranges::find(names, "cet-r2") - names.begin());
+    for (Volume& volume : scene.volumes) {
+        for (Surface& surface : volume.surfaces)
+            surface.fieldColor =
+                FieldColor{.by = FieldColor::By::level, .map = rainbow, .low = 0, .high = kHighestLevel};
+    }
 }
 
 }  // namespace isoglass

@@ -183,6 +183,9 @@ struct Quality {
     std::optional<double> frameMilliseconds;  ///< time a displayed frame may take
     bool exactOrder = false;                  ///< transparency that is left to `auto` is exact
 
+    /// Whether meshes depend on the view.
+    bool wantsDetail() const { return pixels || errorPixels; }
+
     friend bool operator==(const Quality&, const Quality&) = default;
 };
 
@@ -204,5 +207,8 @@ struct Scene {
 
 /// Series coordinates to world, double precision.
 glm::dmat4 worldFromSeries(const Placement& place);
+
+/// Colours every surface by the level of detail of its cells, from 0 to 4, to look at the mesh.
+void colorByLevel(Scene& scene);
 
 }  // namespace isoglass

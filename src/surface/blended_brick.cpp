@@ -1,6 +1,7 @@
 #include "surface/blended_brick.h"
 
 #include "surface/box_field.h"
+#include "surface/cell_form.h"
 
 #include <glm/common.hpp>
 
@@ -10,8 +11,6 @@
 namespace isoglass {
 
 namespace {
-
-constexpr float kBlendFrom = 1.9f;
 
 /// Places of a cube of n^3 values with a border, z fastest.
 constexpr int boxPlace(int n, glm::ivec3 v) {

@@ -10,8 +10,6 @@ namespace {
 
 /// Width of a slide, in cells of the level: sizes that far apart are far apart in the picture.
 constexpr float kSlide = 0.05f;
-/// Weights are 1 from here on, where the next level begins to blend in.
-constexpr float kBlendFrom = 1.9f;
 /// Twice the share by which a level begins later than at its cell size, against rounding.
 constexpr float kMargin = 2.0f / 1024;
 constexpr float kNever = std::numeric_limits<float>::infinity();

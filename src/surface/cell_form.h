@@ -4,6 +4,10 @@
 
 namespace isoglass {
 
+/// Ratio of the allowed size to the cells of a level at which the next level begins to blend in; it has taken
+/// over at 2. From here on cells are tetrahedral.
+inline constexpr float kBlendFrom = 1.9f;
+
 /// How cells are cut.
 enum class CellForm {
     sliding,      ///< compact wherever no levels blend or touch, with a smooth change between the forms

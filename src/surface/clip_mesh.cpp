@@ -155,19 +155,25 @@ class MeshClipper {
 }  // namespace
 
 ClipTest::ClipTest(const IndexSpace& space, std::span<const CutPlane> planes) : space_(space) {
-    for (const CutPlane& plane : planes) {
-        double reach = std::abs(plane.plane.w);
-        for (int k = 0; k < 3; ++k) {
-            double largest = std::abs(space.origin[k]);
-            for (const double coordinate : space.axes[k].coordinate)
-                largest = std::max(largest, std::abs(coordinate));
-            reach += std::abs(plane.plane[k]) * largest;
-        }
-        // A vertex lies within half an ulp of float of where its cell has it, in each coordinate; eight
-        // times that also covers the double arithmetic of both sides.
-        const double slack = 4 * std::numeric_limits<float>::epsilon() * reach;
-        planes_.push_back({{glm::dvec3(plane.plane), plane.distance(space.origin)}, slack});
+    for (const CutPlane& plane : planes) add(plane.plane);
+}
+
+ClipTest::ClipTest(const IndexSpace& space, std::span<const glm::dvec4> planes) : space_(space) {
+    for (const glm::dvec4& plane : planes) add(plane);
+}
+
+void ClipTest::add(const glm::dvec4& plane) {
+    double reach = std::abs(plane.w);
+    for (int k = 0; k < 3; ++k) {
+        double largest = std::abs(space_.origin[k]);
+        for (const double coordinate : space_.axes[k].coordinate)
+            largest = std::max(largest, std::abs(coordinate));
+        reach += std::abs(plane[k]) * largest;
     }
+    // A vertex lies within half an ulp of float of where its cell has it, in each coordinate; eight
+    // times that also covers the double arithmetic of both sides.
+    const double slack = 4 * std::numeric_limits<float>::epsilon() * reach;
+    planes_.push_back({{glm::dvec3(plane), CutPlane{plane}.distance(space_.origin)}, slack});
 }
 
 ClipFate ClipTest::fate(std::size_t plane, glm::ivec3 low, glm::ivec3 high) const {
@@ -197,6 +203,10 @@ ClipFate ClipTest::fate(glm::ivec3 low, glm::ivec3 high) const {
 
 bool ClipTest::skips(glm::ivec3 brick) const {
     return !planes_.empty() && fate((brick - 1) * kBrickSize, (brick + 1) * kBrickSize) == ClipFate::gone;
+}
+
+bool ClipTest::hides(glm::ivec3 brick) const {
+    return !planes_.empty() && fate(brick * kBrickSize, (brick + 1) * kBrickSize) == ClipFate::gone;
 }
 
 void clipMesh(const IndexSpace& space, const TimedField& field, const ExtractOptions& options,

@@ -19,6 +19,8 @@ enum class ClipFate { kept, cut, gone };
 class ClipTest {
   public:
     ClipTest(const IndexSpace& space, std::span<const CutPlane> planes);
+    /// By what a view sees: `View::planes`.
+    ClipTest(const IndexSpace& space, std::span<const glm::dvec4> planes);
 
     /// Of the cells from `low` up to `high` (lattice samples, both ends belong to the box; clamped to the
     /// domain). `gone` where a single plane cuts all of it off.
@@ -29,10 +31,14 @@ class ClipTest {
     /// Whether a brick need not be extracted: neither its own cells nor those of the bricks before it,
     /// which use its vertices, keep anything.
     bool skips(glm::ivec3 brick) const;
+    /// Whether a brick's own cells keep nothing.
+    bool hides(glm::ivec3 brick) const;
 
     std::size_t planes() const { return planes_.size(); }
 
   private:
+    void add(const glm::dvec4& plane);
+
     struct Plane {
         glm::dvec4 relative;  ///< to the mesh's origin
         double slack;

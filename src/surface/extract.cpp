@@ -43,9 +43,17 @@ struct Selection {
     std::vector<std::uint32_t> bricks;
     std::vector<std::uint32_t> rowStart;  ///< by y + z * bricks.y, one more at the end
     ValueRange range = kEmptyRange;
+    bool leftOut = false;  ///< see ExtractStats
 };
 
-Selection selectBricks(const IndexSpace& space, const TimedField& field, const ExtractOptions& options) {
+/// What the view sees; all, where the options say that all is extracted.
+ClipTest seenBy(const IndexSpace& space, const ExtractOptions& options, bool takeAll) {
+    return {space, options.view && !takeAll ? std::span<const glm::dvec4>(options.view->planes)
+                                            : std::span<const glm::dvec4>()};
+}
+
+Selection selectBricks(const IndexSpace& space, const TimedField& field, const ExtractOptions& options,
+                       const ClipTest& seen) {
     const std::size_t rows = static_cast<std::size_t>(space.bricks.y) * space.bricks.z;
     const std::size_t rowsPerTask = std::max<std::size_t>(1, kBricksPerRangeTask / space.bricks.x);
     const ClipTest clip(space, options.clip);
@@ -64,7 +72,11 @@ Selection selectBricks(const IndexSpace& space, const TimedField& field, const E
                 const ValueRange range = rangeInTime(field, field.a->linear(brick));
                 if (!(range.min <= range.max)) continue;
                 part.range = {std::min(part.range.min, range.min), std::max(part.range.max, range.max)};
-                if (range.min <= options.iso && options.iso <= range.max && !clip.skips({x, y, z})) {
+                if (!(range.min <= options.iso && options.iso <= range.max)) continue;
+                if (clip.skips({x, y, z})) continue;
+                if (seen.skips({x, y, z})) {
+                    part.leftOut = true;
+                } else {
                     part.bricks.push_back(static_cast<std::uint32_t>(row * space.bricks.x + x));
                 }
             }
@@ -75,10 +87,15 @@ Selection selectBricks(const IndexSpace& space, const TimedField& field, const E
     for (const Selection& part : parts) {
         all.bricks.insert(all.bricks.end(), part.bricks.begin(), part.bricks.end());
         all.range = {std::min(all.range.min, part.range.min), std::max(all.range.max, part.range.max)};
+        all.leftOut = all.leftOut || part.leftOut;
     }
     all.rowStart.assign(rows + 1, 0);
     for (std::size_t row = 0; row < rows; ++row) all.rowStart[row + 1] = all.rowStart[row] + rowCount[row];
     return all;
+}
+
+bool isCutBy(const ExtractOptions& options) {
+    return !options.clip.empty() || options.closed;
 }
 
 /// Heights that one side has and the other lacks would put the surface somewhere else.
@@ -104,7 +121,7 @@ std::optional<TimedField> heightsOf(const TimedField& field) {
 
 /// First pass: every touched brick is gathered once, classified, and its vertices are made.
 void makeRecords(const IndexSpace& space, const TimedField& field, const ExtractOptions& options,
-                 const Selection& selection, std::vector<BrickRecord>& records,
+                 const ClipTest& seen, const Selection& selection, std::vector<BrickRecord>& records,
                  std::vector<VertexBuffer>& buffers) {
     const float sign = options.insideIsBelow ? -1.0f : 1.0f;
     const std::optional<TimedField> heightsInTime = heightsOf(field);
@@ -124,6 +141,8 @@ void makeRecords(const IndexSpace& space, const TimedField& field, const Extract
             if (heightsInTime) gatherBrick(space, *heightsInTime, brick, 1, scratch, heights);
             makeVertices(space, records[i], gathered, heightsInTime ? &heights : nullptr, sign * options.iso,
                          buffer);
+            // Only its vertices are used, by the bricks before it.
+            if (seen.hides(brick)) records[i].triangleCount = 0;
         }
     });
 }
@@ -179,8 +198,7 @@ void writeMesh(const IndexSpace& space, const ExtractOptions& options, const Sel
             const std::span<std::uint32_t> out(mesh.triangles.data() + firstIndex,
                                                3u * records[i].triangleCount);
             // Of a brick that is clipped away only the vertices are used, by the bricks before it.
-            const glm::ivec3 low = records[i].brick * kBrickSize;
-            if (!out.empty() && clip.fate(low, low + kBrickSize) != ClipFate::gone)
+            if (!out.empty() && !clip.hides(records[i].brick))
                 writeTriangles(findNeighbours(space, selection, records, records[i].brick), space.mirrored,
                                out);
         }
@@ -189,26 +207,31 @@ void writeMesh(const IndexSpace& space, const ExtractOptions& options, const Sel
 
 }  // namespace
 
+bool hasDetail(const Lattice& lattice, const ExtractOptions& options) {
+    return options.view && options.view->wantsDetail() && !lattice.heights && !isCutBy(options);
+}
+
 Extraction extractSurface(const Lattice& lattice, const TimedField& field, const ExtractOptions& options) {
     requireHeights(lattice, field);
-    const bool isCut = !options.clip.empty() || options.closed;
+    const bool isCut = isCutBy(options);
     if (isCut && lattice.heights) {
         throw Error("a lattice whose samples have heights of their own cannot be clipped or closed yet",
                     "clipping", "remove the clip planes and the closed boundary");
     }
-    const bool wantsDetail = options.view && options.view->wantsDetail();
-    if (wantsDetail && !lattice.heights && !isCut) return extractForView(lattice, field, options);
+    if (hasDetail(lattice, options)) return extractForView(lattice, field, options);
     const IndexSpace space(lattice);
-    const Selection selection = selectBricks(space, field, options);
+    const ClipTest seen = seenBy(space, options, isCut || lattice.heights);
+    const Selection selection = selectBricks(space, field, options, seen);
     Extraction result;
     result.mesh.origin = space.origin;
     result.stats.bricks = static_cast<std::size_t>(space.bricks.x) * space.bricks.y * space.bricks.z;
     result.stats.touchedBricks = selection.bricks.size();
     result.stats.range = selection.range;
+    result.stats.leftOut = selection.leftOut;
 
     std::vector<BrickRecord> records;
     std::vector<VertexBuffer> buffers;
-    makeRecords(space, field, options, selection, records, buffers);
+    makeRecords(space, field, options, seen, selection, records, buffers);
     for (const BrickRecord& record : records) result.stats.lostCells += record.lostCells;
     scan(records, result.mesh);
     writeMesh(space, options, selection, records, buffers, result.mesh);

@@ -24,8 +24,9 @@ struct ExtractOptions {
     /// The surface separates f >= iso (inside) from the rest; compared as float, like the samples.
     float iso = 0;
     bool insideIsBelow = false;  ///< inside is f <= iso instead
-    /// From where the mesh will be seen; full resolution where not given, where it asks for none less, and
-    /// where the lattice has heights.
+    /// From where the mesh will be seen, and what of it; full resolution where not given, where it asks for
+    /// none less, and where the lattice has heights. What is seen of the mesh does not depend on the bricks
+    /// that are left out (`View::planes`); vertices beside them may stay without a triangle.
     std::optional<View> view = {};
     /// With a view: the mesh is one alone and not one of many in time, so that cells need not become finer
     /// where the iso-value passes a sample (see CellOptions::gate): about a seventh fewer triangles.
@@ -46,6 +47,7 @@ struct ExtractStats {
     /// Hull of the bricks' time-interpolated ranges: the surface is empty when it does not hold the
     /// iso-value. Empty range (min > max) where no sample is valid.
     ValueRange range{};
+    bool leftOut = false;  ///< bricks that the surface may touch were left out because they are not seen
 };
 
 struct Extraction {
@@ -62,6 +64,9 @@ struct Extraction {
 /// Surface and caps as one mesh, joined by identity: closed where `clip` caps all its planes, the domain's
 /// end is `closed` and no sample is missing.
 SurfaceMesh joinCaps(const Extraction& extraction);
+
+/// Whether the mesh for these options may have cells larger than those of the lattice.
+bool hasDetail(const Lattice& lattice, const ExtractOptions& options);
 
 /// Extracts one iso-surface at full resolution by compact Kuhn cells: the six
 /// tetrahedra of a cell decide the topology, the vertices lie on axis edges.

@@ -2,6 +2,7 @@
 
 #include "basis/parallel.h"
 #include "surface/brick_mesher.h"
+#include "surface/clip_mesh.h"
 #include "surface/time_range.h"
 #include "volume/pyramid.h"
 
@@ -24,12 +25,12 @@ constexpr std::size_t kVerticesPerTask = kBricksPerTask * kBrickSize * kBrickSiz
 class Selector {
   public:
     Selector(const LevelSpace& space, const SizeField& sizes, const std::vector<TimedField>& levels,
-             float iso)
-        : space_(space), sizes_(sizes), levels_(levels), iso_(iso) {}
+             float iso, std::span<const glm::dvec4> planes)
+        : space_(space), sizes_(sizes), levels_(levels), iso_(iso), seen_(space.levels[0], planes) {}
 
-    std::vector<LevelBrick> run() {
+    LevelSelection run() {
         visit({space_.top(), glm::ivec3(0)});
-        return std::move(bricks_);
+        return std::move(selection_);
     }
 
   private:
@@ -44,13 +45,22 @@ class Selector {
         const auto hull = [&](const KeyFrame& frame) { return frame.pyramid().hull(node.level, node.brick); };
         const ValueRange range = base.fraction == 1 ? hull(*base.b) : hull(*base.a);
         if (!holdsIso(both ? rangeInTime(range, hull(*base.b), base.fraction) : widened(range))) return;
+        if (isHidden(node)) {
+            selection_.leftOut = true;
+            return;
+        }
         if (sizes_.isCoarseEnough(node)) {
-            if (holdsIso(ownRange(node))) bricks_.push_back(node);
+            if (holdsIso(ownRange(node))) selection_.bricks.push_back(node);
             return;
         }
         for (int child = 0; child < 8; ++child) {
             visit({node.level - 1, 2 * node.brick + glm::ivec3(child & 1, child >> 1 & 1, child >> 2)});
         }
+    }
+
+    bool isHidden(LevelBrick node) const {
+        const int side = kBrickSize << node.level;
+        return seen_.planes() > 0 && seen_.fate(node.brick * side, (node.brick + 1) * side) == ClipFate::gone;
     }
 
     /// Range of the samples of the node's own level: with subsampling those of the coarser levels are among
@@ -67,7 +77,8 @@ class Selector {
     const SizeField& sizes_;
     const std::vector<TimedField>& levels_;
     const float iso_;
-    std::vector<LevelBrick> bricks_;
+    const ClipTest seen_;
+    LevelSelection selection_;
 };
 
 /// Hull of the whole field in time.
@@ -89,9 +100,10 @@ std::vector<TimedField> fieldsOfLevels(const LevelSpace& space, const TimedField
     return levels;
 }
 
-std::vector<LevelBrick> selectBricks(const LevelSpace& space, const SizeField& sizes,
-                                     const std::vector<TimedField>& levels, float iso) {
-    return Selector(space, sizes, levels, iso).run();
+LevelSelection selectBricks(const LevelSpace& space, const SizeField& sizes,
+                            const std::vector<TimedField>& levels, float iso,
+                            std::span<const glm::dvec4> planes) {
+    return Selector(space, sizes, levels, iso, planes).run();
 }
 
 std::vector<MeshPart> meshBricks(const LevelFields& fields, const std::vector<LevelBrick>& bricks,
@@ -121,8 +133,11 @@ Extraction extractForView(const Lattice& lattice, const TimedField& field, const
     const LevelFields fields{space, sizes, fieldsOfLevels(space, field),
                              options.insideIsBelow ? -1.0f : 1.0f};
     result.stats.range = wholeRange(space, field);
-    const std::vector<LevelBrick> bricks = selectBricks(space, sizes, fields.fields, options.iso);
+    const LevelSelection selection =
+        selectBricks(space, sizes, fields.fields, options.iso, options.view->planes);
+    const std::vector<LevelBrick>& bricks = selection.bricks;
     result.stats.touchedBricks = bricks.size();
+    result.stats.leftOut = selection.leftOut;
 
     std::vector<MeshPart> parts = meshBricks(
         fields, bricks, {.iso = options.iso, .gate = options.still ? 0 : kGateInMotion}, options.threads);

@@ -7,6 +7,7 @@
 #include "surface/mesh_part.h"
 #include "surface/size_field.h"
 
+#include <span>
 #include <vector>
 
 namespace isoglass {
@@ -16,11 +17,17 @@ namespace isoglass {
 /// The key frames of every level, level 0 first. Builds pyramids that are not there yet.
 std::vector<TimedField> fieldsOfLevels(const LevelSpace& space, const TimedField& field);
 
+struct LevelSelection {
+    std::vector<LevelBrick> bricks;
+    bool leftOut = false;  ///< see ExtractStats
+};
+
 /// The bricks, of whatever level, that the surface seen from a view consists of, in an order that depends on
 /// nothing but the arguments: each as coarse as its sizes allow, those left out that the surface does not
-/// touch.
-std::vector<LevelBrick> selectBricks(const LevelSpace& space, const SizeField& sizes,
-                                     const std::vector<TimedField>& levels, float iso);
+/// touch or that lie behind one of `planes` (`View::planes`).
+LevelSelection selectBricks(const LevelSpace& space, const SizeField& sizes,
+                            const std::vector<TimedField>& levels, float iso,
+                            std::span<const glm::dvec4> planes = {});
 
 /// Meshes bricks, some of them to a part, in their order.
 std::vector<MeshPart> meshBricks(const LevelFields& fields, const std::vector<LevelBrick>& bricks,

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <vector>
 
 namespace isoglass {
 
@@ -19,6 +22,10 @@ struct View {
     /// Largest displacement of the surface on the screen in pixels; takes the place of `cellPixels` where it
     /// is above 0. An estimate from the data, see ErrorSizes.
     double errorPixels = 0;
+
+    /// What lies behind any of these, a x + b y + c z + d < 0 in the coordinates of the series, is not seen.
+    /// Bricks wholly behind one are left out of meshes that are neither clipped nor closed nor have heights.
+    std::vector<glm::dvec4> planes = {};
 
     bool wantsDetail() const { return cellPixels > 0 || errorPixels > 0; }
 };

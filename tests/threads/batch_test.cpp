@@ -102,7 +102,7 @@ TEST_F(BatchTest, EachFrameShowsExactlyItsOwnMomentAndCamera) {
     for (const RenderedFrame& frame : frames) {
         const CameraPose camera = scene_.camera.poseAt(static_cast<double>(frame.frame) / scene_.time.fps);
         const double position = static_cast<double>(frame.frame) / kFrames;
-        const SceneMeshes meshes = extractor.extract(position, camera, scene_.image.size.y);
+        const SceneMeshes meshes = extractor.extract(position, camera, scene_.image.size);
         EXPECT_DOUBLE_EQ(frame.meshes.axisTimes.at(0), position * kKeyFrames);
         FrameDescription description = describeFrame(scene_, {.camera = camera, .size = scene_.image.size});
         description.draws = surfaceDraws(scene_, meshes);
@@ -111,6 +111,25 @@ TEST_F(BatchTest, EachFrameShowsExactlyItsOwnMomentAndCamera) {
         }
         renderer.render(description);
         EXPECT_EQ(frame.image.pixels, renderer.readSrgb().pixels) << "frame " << frame.frame;
+    }
+}
+
+// The camera passes through the volume, so that surfaces are beside, behind and around it.
+TEST_F(BatchTest, ImagesDoNotDependOnWhatIsLeftOutBecauseItIsNotSeen) {
+    scene_.camera.path = {{0, {.eye = {2, 1.5, 1}, .target = {0.5, -0.5, 0}}},
+                          {0.4, {.eye = {0.1, -0.1, 0.2}, .target = {-1, 0.5, 0.3}}}};
+    for (const std::optional<double> errorPixels : {std::optional<double>(), std::optional(0.5)}) {
+        scene_.quality.errorPixels = errorPixels;
+        for (const auto method : {TransparencyMethod::fourPass, TransparencyMethod::exact}) {
+            scene_.transparency.method = method;
+            const auto seen = render({0, kFrames - 1}, {.seenMargin = 0});
+            expectSameImages(render({0, kFrames - 1}), seen);
+            std::size_t leftOut = 0;
+            for (const RenderedFrame& frame : seen)
+                for (const ExtractedSurface& surface : frame.meshes.surfaces)
+                    leftOut += surface.stats.leftOut;
+            EXPECT_GT(leftOut, 5u);
+        }
     }
 }
 

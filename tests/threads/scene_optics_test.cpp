@@ -44,7 +44,7 @@ class SceneOptics : public testing::Test {
 
     SceneMeshes extract() {
         SceneExtractor extractor(scene_, {});
-        return extractor.extract(0, scene_.camera.pose, scene_.image.size.y);
+        return extractor.extract(0, scene_.camera.pose, scene_.image.size);
     }
 
     Image render() {
@@ -118,7 +118,7 @@ TEST_F(SceneOptics, OnAKeyFrameTheSecondOneIsNotRead) {
         scene_.volumes[0].series = write("damaged.vdb", blobs);
         SceneExtractor extractor(scene_, {});
         test::damageEnd(folder_ / "damaged.vdb");  // samples of the second key frame
-        return extractor.extract(0, scene_.camera.pose, 120).surfaces[0].mesh->triangleCount();
+        return extractor.extract(0, scene_.camera.pose, {160, 120}).surfaces[0].mesh->triangleCount();
     };
     EXPECT_GT(extractBesideDamage(0), 0u);
     EXPECT_THROW(extractBesideDamage(0.5), Error);
@@ -129,7 +129,7 @@ TEST_F(SceneOptics, PlanesMoveFromCallToCall) {
     std::vector<std::size_t> triangles;
     for (const double offset : {2.0, 0.5, 0.0, -0.5, 2.0}) {
         extractor.setClip({{{1, 0, 0, offset}}});
-        const SceneMeshes meshes = extractor.extract(0, scene_.camera.pose, 120);
+        const SceneMeshes meshes = extractor.extract(0, scene_.camera.pose, {160, 120});
         triangles.push_back(meshes.surfaces[0].mesh->triangleCount());
     }
     EXPECT_GT(triangles[0], triangles[1]);

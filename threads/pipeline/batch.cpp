@@ -16,7 +16,7 @@ FrameRequest requestFor(const Scene& scene, std::int64_t frame) {
     request.number = static_cast<std::uint64_t>(frame);
     request.position = scene.time.position(frame);
     request.camera = scene.camera.poseAt(static_cast<double>(frame) / scene.time.fps);
-    request.imageHeight = scene.image.size.y;
+    request.imageSize = scene.image.size;
     return request;
 }
 
@@ -28,7 +28,7 @@ void renderFrames(const Scene& scene, SceneExtractor& extractor, FrameRange rang
     BoundedQueue<RenderedFrame> images(kImagesAhead);
     ExtractionWorker worker(
         [&](const FrameRequest& request) {
-            return extractor.extract(request.position, request.camera, request.imageHeight);
+            return extractor.extract(request.position, request.camera, request.imageSize);
         },
         inbox.meshes);
     const auto isLast = [&](const FrameMeshes& shown) {

@@ -16,7 +16,7 @@ struct FrameRequest {
     std::uint64_t number = 0;  ///< chosen by the one who asks
     double position = 0;       ///< 0 is the timeline's `from`, 1 its `to`
     CameraPose camera;
-    int imageHeight = 0;  ///< pixels of the picture that it is for
+    glm::ivec2 imageSize{0};  ///< pixels of the picture that it is for
 };
 
 /// A finished request: all meshes of the moment, or why there are none.

@@ -125,6 +125,10 @@ std::vector<SurfaceDraw> surfaceDraws(const Scene& scene, const SceneMeshes& mes
         const Surface& surface = volume.surfaces[extracted.surface];
         SurfaceDraw draw;
         draw.worldFromSeries = worldFromSeries(volume.place);
+        if (!meshes.bounds.empty()) {
+            const auto& [low, high] = meshes.bounds[extracted.volume];
+            draw.boundsSeries = Bounds{low, high};
+        }
         draw.color = surface.color;
         draw.opacity = surface.opacity;
         if (surface.shell) draw.shell = prepareShell(*surface.shell);

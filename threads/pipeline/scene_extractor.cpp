@@ -1,5 +1,7 @@
 #include "pipeline/scene_extractor.h"
 
+#include "render/camera.h"
+#include "surface/level_values.h"
 #include "surface/vertex_values.h"
 
 #include <glm/common.hpp>
@@ -111,24 +113,35 @@ std::vector<FrameKey> SceneExtractor::framesAhead(double position) const {
     return keys;
 }
 
-View SceneExtractor::viewOf(const Volume& volume, const CameraPose& camera, int imageHeight) const {
+View SceneExtractor::viewOf(const Volume& volume, const CameraPose& camera, glm::ivec2 imageSize) const {
     View view;
     view.eye = glm::dvec3(glm::inverse(worldFromSeries(volume.place)) * glm::dvec4(camera.eye, 1.0));
     view.worldPerUnit = glm::abs(volume.place.scale);
-    view.pixelsPerUnit = imageHeight / (2 * std::tan(scene_.camera.fovDegrees * M_PI / 360));
+    view.pixelsPerUnit = imageSize.y / (2 * std::tan(scene_.camera.fovDegrees * M_PI / 360));
     view.cellPixels = scene_.quality.pixels.value_or(0);
     view.errorPixels = scene_.quality.errorPixels.value_or(0);
+    if (options_.seenMargin) {
+        const CameraView picture{camera.eye, camera.target, scene_.camera.up, scene_.camera.fovDegrees,
+                                 imageSize};
+        // plane . (M p) = (M^T plane) . p
+        const glm::dmat4 seriesFromWorld = glm::transpose(worldFromSeries(volume.place));
+        for (const glm::dvec4& plane : viewPlanes(picture, *options_.seenMargin))
+            view.planes.push_back(seriesFromWorld * plane);
+    }
     return view;
 }
 
 std::vector<float> SceneExtractor::colorValues(const SurfaceMesh& mesh, const ExtractedSurface& place,
-                                               const TimedField& field, double position) {
+                                               const TimedField& field, const ExtractOptions& options,
+                                               double position) {
     switch (scene_.volumes[place.volume].surfaces[place.surface].fieldColor->by) {
         case FieldColor::By::curvature:
             return meanCurvature(mesh);
         case FieldColor::By::value:
             return sampleAtVertices(mesh, series_[place.volume].file->description().lattice, field,
                                     options_.threads);
+        case FieldColor::By::level:
+            return levelAtVertices(mesh, series_[place.volume].file->description().lattice, field, options);
         case FieldColor::By::series:
             break;
     }
@@ -148,48 +161,59 @@ std::vector<std::shared_ptr<const SeriesFile>> SceneExtractor::files() const {
     return all;
 }
 
-SceneMeshes SceneExtractor::extract(double position, const CameraPose& camera, int imageHeight) {
+SceneMeshes SceneExtractor::extract(double position, const CameraPose& camera, glm::ivec2 imageSize) {
     cache_->want(framesAhead(position));
     SceneMeshes result;
     for (std::size_t v = 0; v < scene_.volumes.size(); ++v) {
-        const Volume& volume = scene_.volumes[v];
         const SeriesDescription& series = series_[v].file->description();
         const double time = series_[v].timeAt(position);
+        result.bounds.push_back(series.lattice.bounds());
         result.axisTimes.push_back(time);
         result.times.push_back(locate(series.time, time));
         result.work.push_back(planAt(v, result.times.back()));
-        const std::vector<PlannedWork>& work = result.work.back();
-        const TimedField field = fieldAt(v, result.times.back(), isNeeded(work, WorkKind::firstKeyFrame),
-                                         isNeeded(work, WorkKind::secondKeyFrame));
-        const View view = viewOf(volume, camera, imageHeight);
-        const std::vector<CutPlane> planes = cutPlanes(scene_, volume);
-        // Caps are cut from cells of full resolution.
-        const bool isCut = !planes.empty() || volume.closed;
-        for (std::size_t s = 0; s < volume.surfaces.size(); ++s) {
-            const Surface& surface = volume.surfaces[s];
-            if (!isNeeded(work, WorkKind::extraction, s)) {
-                result.surfaces.push_back({v, s, std::make_shared<const SurfaceMesh>(), {}});
-                continue;
-            }
-            Extraction extraction = extractSurface(series.lattice, field,
-                                                   {.iso = static_cast<float>(surface.iso),
-                                                    .insideIsBelow = surface.inside == Inside::below,
-                                                    .view = isCut ? std::nullopt : std::optional(view),
-                                                    .still = scene_.time.frameCount() == 1,
-                                                    .threads = options_.threads,
-                                                    .clip = planes,
-                                                    .closed = volume.closed});
-            const auto add = [&](SurfaceMesh mesh, const ExtractStats& stats, bool caps) {
-                ExtractedSurface extracted{v, s, nullptr, stats, caps};
-                if (surface.fieldColor) mesh.colorValues = colorValues(mesh, extracted, field, position);
-                extracted.mesh = std::make_shared<const SurfaceMesh>(std::move(mesh));
-                result.surfaces.push_back(std::move(extracted));
-            };
-            add(std::move(extraction.mesh), extraction.stats, false);
-            if (!extraction.caps.empty()) add(std::move(extraction.caps), {}, true);
-        }
+        addSurfaces(v, position, viewOf(scene_.volumes[v], camera, imageSize), result);
     }
     return result;
+}
+
+void SceneExtractor::addSurfaces(std::size_t v, double position, const View& view, SceneMeshes& result) {
+    const Volume& volume = scene_.volumes[v];
+    const Lattice& lattice = series_[v].file->description().lattice;
+    const std::vector<PlannedWork>& work = result.work[v];
+    const TimedField field = fieldAt(v, result.times[v], isNeeded(work, WorkKind::firstKeyFrame),
+                                     isNeeded(work, WorkKind::secondKeyFrame));
+    for (std::size_t s = 0; s < volume.surfaces.size(); ++s) {
+        const Surface& surface = volume.surfaces[s];
+        if (!isNeeded(work, WorkKind::extraction, s)) {
+            result.surfaces.push_back({v, s, std::make_shared<const SurfaceMesh>(), {}});
+            continue;
+        }
+        const ExtractOptions options = optionsFor(volume, surface, view);
+        Extraction extraction = extractSurface(lattice, field, options);
+        const auto add = [&](SurfaceMesh mesh, const ExtractStats& stats, bool caps) {
+            ExtractedSurface extracted{v, s, nullptr, stats, caps};
+            if (surface.fieldColor) mesh.colorValues = colorValues(mesh, extracted, field, options, position);
+            extracted.mesh = std::make_shared<const SurfaceMesh>(std::move(mesh));
+            result.surfaces.push_back(std::move(extracted));
+        };
+        add(std::move(extraction.mesh), extraction.stats, false);
+        if (!extraction.caps.empty()) add(std::move(extraction.caps), {}, true);
+    }
+}
+
+ExtractOptions SceneExtractor::optionsFor(const Volume& volume, const Surface& surface,
+                                          const View& view) const {
+    ExtractOptions options{.iso = static_cast<float>(surface.iso),
+                           .insideIsBelow = surface.inside == Inside::below,
+                           .view = view,
+                           .still = scene_.time.frameCount() == 1,
+                           .threads = options_.threads,
+                           .clip = cutPlanes(scene_, volume),
+                           .closed = volume.closed};
+    // Curvature looks at all triangles around a vertex.
+    if (surface.fieldColor && surface.fieldColor->by == FieldColor::By::curvature)
+        options.view->planes.clear();
+    return options;
 }
 
 }  // namespace isoglass

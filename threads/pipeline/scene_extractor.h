@@ -8,9 +8,11 @@
 #include "surface/extract.h"
 #include "volume/time_axis.h"
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,8 @@ struct ExtractedSurface {
 /// All surfaces of the scene at one moment, in the order of the scene. Always whole.
 struct SceneMeshes {
     std::vector<ExtractedSurface> surfaces;
+    /// One a volume, in its own coordinates: holds its surfaces with what of them was left out. May be empty.
+    std::vector<std::array<glm::dvec3, 2>> bounds;
     std::vector<TimeSample> times;               ///< one a volume
     std::vector<double> axisTimes;               ///< one a volume, in its series' own units
     std::vector<std::vector<PlannedWork>> work;  ///< one a volume: what was done for it, and why
@@ -41,6 +45,9 @@ class SceneExtractor {
     struct Options {
         std::size_t memoryBytes = std::size_t{2} << 30;  ///< budget for key frames
         int threads = 0;                                 ///< for the inner loops; 0 takes all cores
+        /// Leaves out what the picture does not show, but for this share of its width or height beyond each
+        /// side, for the camera to move in. Without it all of every surface is there.
+        std::optional<double> seenMargin = {};
     };
 
     /// Opens every series of the scene. Throws Error where one cannot be read, is not the grid that the
@@ -48,8 +55,8 @@ class SceneExtractor {
     SceneExtractor(const Scene& scene, Options options);
 
     /// All surfaces at `position` (0 is the timeline's `from`, 1 its `to`), for a picture seen from
-    /// `camera` of `imageHeight` pixels. Key frames ahead are read while this works.
-    SceneMeshes extract(double position, const CameraPose& camera, int imageHeight);
+    /// `camera` of `imageSize` pixels. Key frames ahead are read while this works.
+    SceneMeshes extract(double position, const CameraPose& camera, glm::ivec2 imageSize);
 
     /// Moves the scene's planes (world coordinates) for the calls of `extract` that follow.
     void setClip(std::vector<ClipPlane> planes) { scene_.clip = std::move(planes); }
@@ -72,9 +79,11 @@ class SceneExtractor {
     TimedField fieldAt(std::size_t series, const TimeSample& sample, bool first, bool second);
     std::vector<PlannedWork> planAt(std::size_t volume, const TimeSample& sample) const;
     std::vector<float> colorValues(const SurfaceMesh& mesh, const ExtractedSurface& place,
-                                   const TimedField& field, double position);
+                                   const TimedField& field, const ExtractOptions& options, double position);
     std::vector<FrameKey> framesAhead(double position) const;
-    View viewOf(const Volume& volume, const CameraPose& camera, int imageHeight) const;
+    void addSurfaces(std::size_t volume, double position, const View& view, SceneMeshes& result);
+    ExtractOptions optionsFor(const Volume& volume, const Surface& surface, const View& view) const;
+    View viewOf(const Volume& volume, const CameraPose& camera, glm::ivec2 imageSize) const;
 
     Scene scene_;
     Options options_;

@@ -16,6 +16,8 @@ namespace isoglass {
 namespace {
 
 constexpr double kSamePosition = 1e-9;
+/// The camera moves while meshes are made: by less than half a picture, unless somebody hurries.
+constexpr double kSeenMargin = 0.5;
 
 /// A scene file is JSON, whatever its name.
 bool isScene(const std::filesystem::path& file) {
@@ -66,8 +68,7 @@ std::vector<double> Opened::keyPositions() const {
     return positions;
 }
 
-Opened openForViewing(const std::filesystem::path& file, glm::ivec2 firstSize,
-                      SceneExtractor::Options options) {
+Opened openForViewing(const std::filesystem::path& file, glm::ivec2 firstSize, const OpenOptions& options) {
     Opened opened;
     opened.name = file.stem().string();
     if (isScene(file)) {
@@ -78,7 +79,11 @@ Opened openForViewing(const std::filesystem::path& file, glm::ivec2 firstSize,
         opened.scene = std::move(first.scene);
         opened.notes = std::move(first.reasons);
     }
-    opened.extractor = std::make_unique<SceneExtractor>(opened.scene, options);
+    if (options.showLevels) colorByLevel(opened.scene);
+    // Meshes of full resolution serve every view.
+    SceneExtractor::Options extraction = options.scene;
+    if (opened.scene.quality.wantsDetail()) extraction.seenMargin = kSeenMargin;
+    opened.extractor = std::make_unique<SceneExtractor>(opened.scene, extraction);
     return opened;
 }
 

@@ -23,10 +23,14 @@ struct Opened {
     std::vector<double> keyPositions() const;
 };
 
+struct OpenOptions {
+    SceneExtractor::Options scene;
+    bool showLevels = false;  ///< see colorByLevel
+};
+
 /// Opens a scene file, or a series with the scene of `makeFirstScene`, which is `firstSize` pixels large.
 /// Reads every series once, to check it. Any thread. Throws Error.
-Opened openForViewing(const std::filesystem::path& file, glm::ivec2 firstSize,
-                      SceneExtractor::Options options);
+Opened openForViewing(const std::filesystem::path& file, glm::ivec2 firstSize, const OpenOptions& options);
 
 /// A moment of a series for people: "2005-08-28 12:00" where it has dates, else the time with its units.
 /// Seconds are shown where key frames are less than a minute apart.

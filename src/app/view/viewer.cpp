@@ -8,15 +8,6 @@
 
 namespace isoglass {
 
-namespace {
-
-/// Meshes of full resolution look the same from everywhere.
-bool meshesDependOnView(const Scene& scene) {
-    return scene.quality.pixels || scene.quality.errorPixels;
-}
-
-}  // namespace
-
 /// One scene and the threads that play it.
 struct Viewer::Session {
     Opened opened;
@@ -37,13 +28,13 @@ struct Viewer::Session {
           output(window, inbox, screenshots, opened.name),
           worker(
               [this](const FrameRequest& request) {
-                  return opened.extractor->extract(request.position, request.camera, request.imageHeight);
+                  return opened.extractor->extract(request.position, request.camera, request.imageSize);
               },
               inbox.meshes),
           loop(opened.scene, Pace::newest, inbox, output.hooks()) {}
 };
 
-Viewer::Viewer(gl::Window& window, Opened opened, SceneExtractor::Options options)
+Viewer::Viewer(gl::Window& window, Opened opened, const OpenOptions& options)
     : window_(window), options_(options), screenshots_([this](const Screenshots::Outcome& outcome) {
           if (outcome.error.empty()) {
               std::cout << outcome.file.string() << std::endl;
@@ -176,10 +167,12 @@ void Viewer::requestMeshes(double moment, const RenderView& view) {
     const FrameRequest wanted{.number = session_->requested ? session_->requested->number + 1 : 0,
                               .position = session_->controls.playhead().position(moment),
                               .camera = view.camera,
-                              .imageHeight = view.size.y};
+                              .imageSize = view.size};
     if (const auto& last = session_->requested) {
-        const bool sameView = last->camera == wanted.camera && last->imageHeight == wanted.imageHeight;
-        if (last->position == wanted.position && (sameView || !meshesDependOnView(session_->opened.scene))) {
+        const bool sameView = last->camera == wanted.camera && last->imageSize == wanted.imageSize;
+        // Meshes of full resolution look the same from everywhere.
+        if (last->position == wanted.position &&
+            (sameView || !session_->opened.scene.quality.wantsDetail())) {
             return;
         }
     }

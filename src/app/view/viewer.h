@@ -25,7 +25,7 @@ namespace isoglass {
 class Viewer {
   public:
     /// `window` must outlive it.
-    Viewer(gl::Window& window, Opened opened, SceneExtractor::Options options);
+    Viewer(gl::Window& window, Opened opened, const OpenOptions& options);
     ~Viewer();
 
     /// Runs until the user quits. Throws what ended the render thread.
@@ -48,7 +48,7 @@ class Viewer {
     void reportError(const std::string& text);
 
     gl::Window& window_;
-    SceneExtractor::Options options_;
+    OpenOptions options_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     bool quit_ = false;
 

@@ -131,7 +131,7 @@ struct Selected {
         : space(c.lattice),
           sizes(space, *c.options.view, c.field, c.options.iso, 1),
           fields{space, sizes, fieldsOfLevels(space, c.field), c.options.insideIsBelow ? -1.0f : 1.0f},
-          bricks(selectBricks(space, sizes, fields.fields, c.options.iso)) {}
+          bricks(selectBricks(space, sizes, fields.fields, c.options.iso).bricks) {}
     Selected(const Selected&) = delete;
 
     std::vector<MeshPart> mesh(const LevelCase& c) const {

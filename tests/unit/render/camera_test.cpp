@@ -57,6 +57,29 @@ TEST(Camera, TheNearPlaneCutsNothingInsideTheView) {
     }
 }
 
+TEST(Camera, ThePlanesOfAViewHoldThePictureAndAPixelAround) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> uniform(-3, 3);
+    const CameraView camera{.eye = {400, 3, 2}, .target = {399, 4, 2.5}, .fovDegrees = 50, .size = {160, 90}};
+    const glm::dmat4 clip = clipFromEye(camera, 0.1);
+    for (const double margin : {0.0, 0.5}) {
+        const auto planes = viewPlanes(camera, margin);
+        // Half the picture is 1 in clip space, a pixel 2 / size.
+        const glm::dvec2 reach = 1.0 + 2.0 * (margin + 1.0 / glm::dvec2(camera.size));
+        for (int i = 0; i < 1000; ++i) {
+            const glm::dvec3 offset(uniform(random), uniform(random), uniform(random));
+            const glm::dvec4 p = clip * glm::dvec4(offset, 1);
+            const bool expected = p.w > 0 && std::abs(p.x) < reach.x * p.w && std::abs(p.y) < reach.y * p.w;
+            bool inside = true;
+            for (const glm::dvec4& plane : planes) {
+                EXPECT_NEAR(glm::length(glm::dvec3(plane)), 1, 1e-15);
+                inside = inside && glm::dot(plane, glm::dvec4(camera.eye + offset, 1)) > 0;
+            }
+            EXPECT_EQ(inside, expected);
+        }
+    }
+}
+
 TEST(Camera, TheNearPlaneIsOfTheScalesSize) {
     const CameraView camera{.eye = {0, 0, 0}, .target = {1, 0, 0}};
     EXPECT_EQ(nearDistance(camera, std::nullopt), 1);

@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
               "\"cosine\"?"},
         Wrong{kOpacity, R"({"model": "constant"})", "/volumes/0/surfaces/0/opacity/opacity", "missing"},
         Wrong{"/volumes/0/surfaces/0/color", R"({"by": "heat", "range": [0, 1]})",
-              "/volumes/0/surfaces/0/color/by", "one of series, value, curvature"},
+              "/volumes/0/surfaces/0/color/by", "one of series, value, curvature, level"},
         Wrong{"/volumes/0/surfaces/0/color", R"({"by": "value", "range": [1, 1]})",
               "/volumes/0/surfaces/0/color/range", "two different numbers"},
         Wrong{"/volumes/0/surfaces/0/color", R"({"by": "value", "range": [0, 1], "map": "jet"})",

@@ -33,6 +33,7 @@ constexpr const char* kFull = R"({
                                            "range": [-2, 30]}},
                       {"iso": 6, "color": {"by": "curvature", "map": "cet-d1", "range": [-1, 1]}},
                       {"iso": 7, "color": {"by": "value", "range": [9, 3]}},
+                      {"iso": 8, "color": {"by": "level", "range": [0, 4]}},
                       {"iso": 4, "opacity": {"model": "iso-spectrum", "extinction": 10, "thickness": 0.05}}]},
         {"series": "/data/other.vdb", "surfaces": [{"iso": 7}]}],
     "time": {"from": "0000-01-16", "to": "0000-12-16T12:00", "duration": 12.5, "fps": 30},
@@ -72,20 +73,21 @@ TEST(SceneFile, EveryKeyIsRead) {
     EXPECT_TRUE(storm.closed);
     EXPECT_EQ(storm.clip, (std::vector<ClipPlane>{{{1, 2, 3, 4}, true}, {{0, 0, -1, 2}, false}}));
     EXPECT_EQ(scene.clip, (std::vector<ClipPlane>{{{0, 1, 0, -5}, true}}));
-    ASSERT_EQ(storm.surfaces.size(), 9u);
+    ASSERT_EQ(storm.surfaces.size(), 10u);
     EXPECT_EQ(storm.surfaces[0], (Surface{0.5, Inside::below, *linearFromHex("#e04030"), 0.3f}));
     EXPECT_EQ(storm.surfaces[1], (Surface{.iso = -1e-3, .opacity = 0.6f}));
     using Model = ShellOpacity::Model;
     EXPECT_EQ(storm.surfaces[2].shell, (ShellOpacity{Model::slab, 2, 0.1f}));
     EXPECT_EQ(storm.surfaces[3].shell, (ShellOpacity{Model::slab, 2, 0, 0.3f, 4}));
     EXPECT_EQ(storm.surfaces[4].shell, (ShellOpacity{Model::cosine, 10, 0.05f, 0, 0, 0.607f}));
-    EXPECT_EQ(storm.surfaces[8].shell, (ShellOpacity{Model::isoSpectrum, 10, 0.05f}));
+    EXPECT_EQ(storm.surfaces[9].shell, (ShellOpacity{Model::isoSpectrum, 10, 0.05f}));
     using By = FieldColor::By;
     EXPECT_EQ(storm.surfaces[5].fieldColor, (FieldColor{By::series, "data/heat.vdb", 2, -2, 30}));
     EXPECT_EQ(storm.surfaces[6].fieldColor, (FieldColor{By::curvature, {}, 4, -1, 1}));
     EXPECT_EQ(storm.surfaces[7].fieldColor, (FieldColor{By::value, {}, 0, 9, 3}));
+    EXPECT_EQ(storm.surfaces[8].fieldColor, (FieldColor{By::level, {}, 0, 0, 4}));
     EXPECT_FALSE(scene.image.legend);
-    for (const std::size_t i : {2u, 3u, 4u, 8u}) EXPECT_FALSE(storm.surfaces[i].opaque());
+    for (const std::size_t i : {2u, 3u, 4u, 9u}) EXPECT_FALSE(storm.surfaces[i].opaque());
     EXPECT_EQ(scene.volumes[1].series, "/data/other.vdb");
     EXPECT_EQ(scene.time, (Timeline{"0000-01-16", "0000-12-16T12:00", 12.5, 30}));
     EXPECT_EQ(scene.camera.pose, (CameraPose{{9, 8, 7}, {1, 1, 1}}));
