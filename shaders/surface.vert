@@ -14,5 +14,5 @@ void main() {
     placeVertex();
     surface.normal = normalFromMesh * normalMesh;
     surface.colorValue = colorValueMesh;
-    surface.toEye = -(eyeFromMesh * vec4(positionMesh, 1.0)).xyz;
+    surface.toEye = -(eyeFromMesh * vec4(movedPosition(), 1.0)).xyz;
 }

@@ -16,4 +16,6 @@ layout(std140, binding = 1) uniform Draw {
     int colorByValue;     // whether colorValue and not colorOpacity gives the color
     float colorLow;       // value at the low end of the color map
     float colorScale;     // one over the range of the color map
+    float motion;         // fraction of the key interval since the mesh's moment
+    float motionLimit;    // how far a vertex moves at most, in the mesh's coordinates
 };

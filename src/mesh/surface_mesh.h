@@ -24,6 +24,9 @@ struct SurfaceMesh {
     std::vector<glm::vec3> normals;
     /// Empty, or one a vertex: the value that colours it; NaN where there is none.
     std::vector<float> colorValues{};
+    /// Empty, or one a vertex: how far the surface would move along its normal until the end of the time
+    /// between the key frames' times, if it went on as it moves now (see motion.h). Finite.
+    std::vector<glm::vec3> velocities{};
     /// Three vertex indices a triangle.
     std::vector<std::uint32_t> triangles;
 

@@ -69,6 +69,8 @@ DrawUniforms drawUniforms(const MeshMatrices& matrices, const SurfaceDraw& draw)
     uniforms.eyeFromMesh = matrices.eyeFromMesh;
     uniforms.colorOpacity = {draw.color, draw.opacity};
     uniforms.depthScale = 1 + static_cast<float>(draw.depthRank) * 0x1p-14f;
+    uniforms.motion = draw.motion;
+    uniforms.motionLimit = draw.motionLimit;
     if (draw.colorBar) {
         uniforms.colorByValue = 1;
         uniforms.colorLow = static_cast<float>(draw.colorBar->low);

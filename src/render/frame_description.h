@@ -28,6 +28,11 @@ struct SurfaceDraw {
     /// surface are equal where they show the same, bit by bit, when they are given the same box.
     std::optional<Bounds> boundsSeries{};
 
+    /// Moves vertices by the mesh's velocities, if it has them, through this part of the time between the two
+    /// key frames, at most as far as `motionLimit` (series units). The bounds must hold the moved mesh.
+    float motion = 0;
+    float motionLimit = 0;
+
     /// Moves the surface towards the eye by 2^-14 of its distance a rank, which settles what is in front
     /// where flat parts of several surfaces lie in one plane.
     int depthRank = 0;

@@ -50,6 +50,7 @@ MeshId MeshStore::upload(const SurfaceMesh& mesh) {
                 uploaded(mesh.normals),
                 uploaded(mesh.triangles),
                 mesh.colorValues.empty() ? std::nullopt : std::optional(uploaded(mesh.colorValues)),
+                mesh.velocities.empty() ? std::nullopt : std::optional(uploaded(mesh.velocities)),
                 gl::VertexArray(),
                 static_cast<std::int32_t>(mesh.triangles.size()),
                 mesh.origin,
@@ -58,6 +59,7 @@ MeshId MeshStore::upload(const SurfaceMesh& mesh) {
     gpu.vertexArray.setVec3(0, gpu.positions);
     gpu.vertexArray.setVec3(1, gpu.normals);
     if (gpu.colorValues) gpu.vertexArray.setFloat(2, *gpu.colorValues);
+    if (gpu.velocities) gpu.vertexArray.setVec3(3, *gpu.velocities);
     gpu.vertexArray.setIndices(gpu.triangles);
     context_.debugLog().throwIfAny("upload of a mesh");
     const MeshId id{++lastId_};
@@ -80,6 +82,7 @@ std::size_t MeshStore::bytes() const {
     for (const auto& [id, mesh] : meshes_) {
         sum += mesh.positions.bytes() + mesh.normals.bytes() + mesh.triangles.bytes();
         if (mesh.colorValues) sum += mesh.colorValues->bytes();
+        if (mesh.velocities) sum += mesh.velocities->bytes();
     }
     return sum;
 }

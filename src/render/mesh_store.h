@@ -21,6 +21,7 @@ struct GpuMesh {
     gl::Buffer normals;
     gl::Buffer triangles;
     std::optional<gl::Buffer> colorValues;  ///< only of meshes that have them
+    std::optional<gl::Buffer> velocities;   ///< only of meshes that have them
     gl::VertexArray vertexArray;
     std::int32_t indexCount;
     glm::dvec3 origin;  ///< of the positions, in series coordinates

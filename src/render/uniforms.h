@@ -42,6 +42,9 @@ struct DrawUniforms {
     int colorByValue;  ///< 0 or 1
     float colorLow;
     float colorScale;  ///< one over the range
+    float motion;
+    float motionLimit;
+    float padding[2] = {};
 };
 
 /// Uniform block `ColorMap` of shaders/lib/color_map.glsl, std140.

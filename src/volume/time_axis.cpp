@@ -55,4 +55,9 @@ TimeSample locate(const TimeAxis& axis, double time) {
     return last == 0 ? TimeSample{} : between(last, 0, times[last], times.front() + *axis.period, time);
 }
 
+double intervalLength(const TimeAxis& axis, const TimeSample& sample) {
+    const double length = axis.times[sample.frameB] - axis.times[sample.frameA];
+    return sample.frameB < sample.frameA ? length + *axis.period : length;
+}
+
 }  // namespace isoglass

@@ -33,4 +33,7 @@ struct TimeSample {
 /// into January) and nothing is outside. `axis.times` must not be empty; `time` must be finite.
 TimeSample locate(const TimeAxis& axis, double time);
 
+/// From `frameA` to `frameB` of a sample of the axis, in its units; 0 where they are the same.
+double intervalLength(const TimeAxis& axis, const TimeSample& sample);
+
 }  // namespace isoglass

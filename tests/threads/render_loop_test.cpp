@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <latch>
@@ -126,6 +128,69 @@ TEST(RenderLoop, FollowsTheNewestCameraWithoutNewMeshes) {
         return shown.count < 4;
     };
     RenderLoop(redSquare(), Pace::newest, inbox, std::move(hooks)).join();
+}
+
+// The square moves by 4 to the right from key frame to key frame, and is the one of fraction 0.5; a position
+// of 0.1 is one interval.
+FrameMeshes movingSet(double limit) {
+    FrameMeshes set = squareSet();
+    set.request.position = 0.3;
+    auto mesh = std::make_shared<SurfaceMesh>(*set.meshes.surfaces[0].mesh);
+    mesh->velocities.assign(4, {4, 0, 0});
+    set.meshes.surfaces[0].mesh = std::move(mesh);
+    set.meshes.times = {{.frameA = 2, .frameB = 3, .fraction = 0.5}};
+    set.meshes.fractionsPerPosition = {10};
+    set.meshes.motionLimits = {limit};
+    return set;
+}
+
+/// Left and right end of the square on the line through the middle, in world units, as pixels tell: each is
+/// 8 tan(15 degrees) / 64 wide.
+std::array<double, 2> endsOf(const Image& image) {
+    int first = image.size.x;
+    int last = -1;
+    for (int x = 0; x < image.size.x; ++x) {
+        if (image.at(x, image.size.y / 2) != kRed) continue;
+        first = std::min(first, x);
+        last = x;
+    }
+    const double pixel = 2 * 4 * std::tan(M_PI / 6) / image.size.x;
+    return {(first - image.size.x / 2) * pixel, (last + 1 - image.size.x / 2) * pixel};
+}
+
+/// Where the square is seen at a position on the timeline.
+std::array<double, 2> endsAt(std::optional<double> position, double limit) {
+    RenderInbox inbox;
+    inbox.meshes.post(movingSet(limit));
+    inbox.views.post(
+        {.camera = {.eye = {0, 0, 4}, .target = {0, 0, 0}}, .size = {64, 64}, .position = position});
+    std::array<double, 2> ends{};
+    RenderLoop::Hooks hooks;
+    hooks.present = [&](const ShownFrame&, Renderer& renderer) {
+        ends = endsOf(renderer.readSrgb());
+        return false;
+    };
+    Scene scene = redSquare();
+    scene.camera.fovDegrees = 60;
+    RenderLoop(scene, Pace::newest, inbox, std::move(hooks)).join();
+    return ends;
+}
+
+TEST(RenderLoop, MovesMeshesToTheDisplayedTimeButNotBeyondAKeyFrameOrTheLimit) {
+    constexpr double kFar = 100;
+    const auto expectAt = [](std::array<double, 2> ends, double center) {
+        constexpr double kPixel = 0.0722;  // 8 tan(30 degrees) / 64
+        EXPECT_NEAR(ends[0], std::max(center - 1, -2.31), kPixel);
+        EXPECT_NEAR(ends[1], std::min(center + 1, 2.31), kPixel);
+    };
+    expectAt(endsAt(std::nullopt, kFar), 0);
+    expectAt(endsAt(0.3, kFar), 0);
+    expectAt(endsAt(0.31, kFar), 0.4);
+    expectAt(endsAt(0.28, kFar), -0.8);
+    expectAt(endsAt(0.31, 0.25), 0.25);
+    expectAt(endsAt(0.41, kFar), 2);
+    EXPECT_EQ(endsAt(0.41, kFar), endsAt(0.35, kFar)) << "the next key frame";
+    EXPECT_EQ(endsAt(0.9, kFar), endsAt(0.3, kFar)) << "another moment";
 }
 
 TEST(RenderLoop, NothingIsDrawnWhereNothingChanged) {

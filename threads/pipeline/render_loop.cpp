@@ -75,7 +75,32 @@ void RenderLoop::replaceMeshes(Renderer& renderer, FrameMeshes meshes) {
 FrameDescription RenderLoop::describe(const RenderView& view) const {
     FrameDescription frame = describeFrame(scene_, view);
     frame.draws = draws_;
+    if (view.position && shown_) move(*view.position, frame.draws);
     return frame;
+}
+
+/// To the displayed position, from that of the meshes.
+void RenderLoop::move(double position, std::vector<SurfaceDraw>& draws) const {
+    const SceneMeshes& meshes = shown_->meshes;
+    if (meshes.fractionsPerPosition.empty()) return;
+    const double passed = position - shown_->request.position;
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+        const std::size_t volume = meshes.surfaces[i].volume;
+        if (meshes.surfaces[i].mesh->velocities.empty()) continue;
+        draws[i].motion = static_cast<float>(
+            motionWithin(meshes.times[volume].fraction, passed * meshes.fractionsPerPosition[volume]));
+        if (draws[i].motion == 0) continue;
+        const double limit = meshes.motionLimits[volume];
+        draws[i].motionLimit = static_cast<float>(limit);
+        if (auto& bounds = draws[i].boundsSeries) *bounds = {bounds->low - limit, bounds->high + limit};
+    }
+}
+
+double motionWithin(double fraction, double wanted) {
+    const double there = fraction + wanted;
+    // That far away it is not the same motion: the timeline began anew or somebody jumped.
+    if (there < -1 || there > 2) return 0;
+    return std::clamp(there, 0.0, 1.0) - fraction;
 }
 
 RenderView sceneView(const Scene& scene) {

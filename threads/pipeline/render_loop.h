@@ -30,6 +30,9 @@ struct RenderView {
     CameraPose camera;
     glm::ivec2 size{0};      ///< of the image in pixels
     bool wireframe = false;  ///< see FrameDescription
+    /// On the timeline: meshes of another moment that have velocities are moved there, as far as they can,
+    /// never across a key frame. Without it they are shown as they are.
+    std::optional<double> position = {};
 
     friend bool operator==(const RenderView&, const RenderView&) = default;
 };
@@ -87,6 +90,7 @@ class RenderLoop {
     bool takeMeshes(Renderer& renderer);
     void replaceMeshes(Renderer& renderer, FrameMeshes meshes);
     FrameDescription describe(const RenderView& view) const;
+    void move(double position, std::vector<SurfaceDraw>& draws) const;
 
     const Scene scene_;
     const Pace pace_;
@@ -97,6 +101,10 @@ class RenderLoop {
     std::exception_ptr failure_;
     std::jthread thread_;  ///< last member: it uses all the others
 };
+
+/// By how much the fraction of a key interval grows that is to grow by `wanted` from `fraction` but stays in
+/// [0,1]; 0 where the time that is wanted is more than an interval beyond.
+double motionWithin(double fraction, double wanted);
 
 /// The view that a scene describes, from the beginning of its camera's path.
 RenderView sceneView(const Scene& scene);

@@ -2,6 +2,7 @@
 
 #include "render/camera.h"
 #include "surface/level_values.h"
+#include "surface/motion.h"
 #include "surface/vertex_values.h"
 
 #include <glm/common.hpp>
@@ -171,6 +172,12 @@ SceneMeshes SceneExtractor::extract(double position, const CameraPose& camera, g
         result.axisTimes.push_back(time);
         result.times.push_back(locate(series.time, time));
         result.work.push_back(planAt(v, result.times.back()));
+        if (options_.motion) {
+            const double length = intervalLength(series.time, result.times.back());
+            result.fractionsPerPosition.push_back(length > 0 ? (series_[v].to - series_[v].from) / length
+                                                             : 0);
+            result.motionLimits.push_back(motionLimit(series.lattice));
+        }
         addSurfaces(v, position, viewOf(scene_.volumes[v], camera, imageSize), result);
     }
     return result;
@@ -196,6 +203,9 @@ void SceneExtractor::addSurfaces(std::size_t v, double position, const View& vie
             extracted.mesh = std::make_shared<const SurfaceMesh>(std::move(mesh));
             result.surfaces.push_back(std::move(extracted));
         };
+        // Cuts stay where they are.
+        if (options_.motion && options.clip.empty() && !options.closed)
+            extraction.mesh.velocities = normalVelocities(extraction.mesh, lattice, field, options);
         add(std::move(extraction.mesh), extraction.stats, false);
         if (!extraction.caps.empty()) add(std::move(extraction.caps), {}, true);
     }

@@ -32,7 +32,11 @@ struct SceneMeshes {
     std::vector<ExtractedSurface> surfaces;
     /// One a volume, in its own coordinates: holds its surfaces with what of them was left out. May be empty.
     std::vector<std::array<glm::dvec3, 2>> bounds;
-    std::vector<TimeSample> times;               ///< one a volume
+    std::vector<TimeSample> times;  ///< one a volume
+    /// One a volume where meshes have velocities: what the fraction of the time between its key frames grows
+    /// by while the position on the timeline grows by 1; 0 at key frames. Else empty.
+    std::vector<double> fractionsPerPosition;
+    std::vector<double> motionLimits;            ///< one a volume, likewise; see motion.h
     std::vector<double> axisTimes;               ///< one a volume, in its series' own units
     std::vector<std::vector<PlannedWork>> work;  ///< one a volume: what was done for it, and why
 };
@@ -48,6 +52,8 @@ class SceneExtractor {
         /// Leaves out what the picture does not show, but for this share of its width or height beyond each
         /// side, for the camera to move in. Without it all of every surface is there.
         std::optional<double> seenMargin = {};
+        /// Gives meshes velocities, so that they can be shown at times that are not theirs.
+        bool motion = false;
     };
 
     /// Opens every series of the scene. Throws Error where one cannot be read, is not the grid that the

@@ -83,6 +83,7 @@ Opened openForViewing(const std::filesystem::path& file, glm::ivec2 firstSize, c
     // Meshes of full resolution serve every view.
     SceneExtractor::Options extraction = options.scene;
     if (opened.scene.quality.wantsDetail()) extraction.seenMargin = kSeenMargin;
+    extraction.motion = opened.scene.time.frameCount() > 1;
     opened.extractor = std::make_unique<SceneExtractor>(opened.scene, extraction);
     return opened;
 }

@@ -146,8 +146,10 @@ void Viewer::collect() {
 void Viewer::publish() {
     const ViewerControls& controls = session_->controls;
     const double moment = now();
-    const RenderView view{
-        .camera = controls.camera(moment), .size = window_.pictureSize(), .wireframe = controls.wireframe()};
+    const RenderView view{.camera = controls.camera(moment),
+                          .size = window_.pictureSize(),
+                          .wireframe = controls.wireframe(),
+                          .position = controls.playhead().position(moment)};
     if (view.size.x > 0 && view.size.y > 0) {
         if (session_->postedView != view) session_->inbox.views.post(view);
         session_->postedView = view;

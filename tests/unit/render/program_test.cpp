@@ -106,6 +106,8 @@ TEST_F(ProgramTest, UniformLayoutsAreThoseOfTheMirrors) {
     expectOffset(surface, "gradientScale", offsetof(DrawUniforms, gradientScale));
     expectOffset(surface, "depthScale", offsetof(DrawUniforms, depthScale));
     expectOffset(surface, "colorScale", offsetof(DrawUniforms, colorScale));
+    expectOffset(surface, "motion", offsetof(DrawUniforms, motion));
+    expectOffset(surface, "motionLimit", offsetof(DrawUniforms, motionLimit));
     expectBlock(surface, "ColorMap", ColorMapUniforms::kBinding, sizeof(ColorMapUniforms));
     EXPECT_EQ(memberProperty(surface, "normalFromMesh", GL_MATRIX_STRIDE),
               static_cast<GLint>(sizeof(DrawUniforms::normalFromMesh[0])));
