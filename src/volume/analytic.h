@@ -30,6 +30,11 @@ std::vector<float> sampleField(const Lattice& lattice, const AnalyticField& fiel
 std::shared_ptr<const KeyFrame> makeAnalyticFrame(const Lattice& lattice, const AnalyticField& field,
                                                   double time);
 
+/// The blobs where they are above `floor`, which must be above 0, and `floor` elsewhere: bricks that lie
+/// wholly below are constant, so that memory and time follow the blobs and not the lattice. Samples are those
+/// of `blobs` but for rounding, because every blob is a product of functions of one axis.
+std::shared_ptr<const KeyFrame> makeSparseBlobs(const Lattice& lattice, double time, float floor);
+
 /// `count`^3 samples over [-1,1]^3.
 Lattice makeUnitLattice(int count);
 

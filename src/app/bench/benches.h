@@ -8,7 +8,7 @@ namespace isoglass {
 
 /// Interpolation in time and extraction of analytic fields at 64^3, 128^3 and 256^3 samples.
 void registerExtraction(int threads, int repetitions);
-/// Meshes of the blobs for one view, at 128^3 to 512^3 samples and three sizes of cells on the screen.
+/// Meshes of the blobs for one view, at 128^3 to 1024^3 samples, for both metrics of detail.
 void registerDetail(int threads, int repetitions);
 /// Whole frames and every pass of every method, three surfaces at 512^2 and 1024^2 pixels.
 void registerPasses(int repetitions);

@@ -1,10 +1,8 @@
 #include "app/bench/benches.h"
+#include "app/bench/registration.h"
 #include "surface/extract.h"
 #include "volume/analytic.h"
 
-#include <benchmark/benchmark.h>
-
-#include <map>
 #include <string>
 
 namespace isoglass {
@@ -40,13 +38,8 @@ void registerExtraction(int threads, int repetitions) {
     for (const Field& field : kFields) {
         for (const int size : {64, 128, 256}) {
             const std::string name = std::string("extract-") + field.name + "/" + std::to_string(size);
-            benchmark::RegisterBenchmark(
-                name.c_str(), [=](benchmark::State& state) { extraction(state, field, size, threads); })
-                ->Repetitions(repetitions)
-                ->ReportAggregatesOnly()
-                ->MinTime(0.05)
-                ->UseRealTime()
-                ->Unit(benchmark::kMillisecond);
+            registerByWallClock(name, repetitions,
+                                [=](benchmark::State& state) { extraction(state, field, size, threads); });
         }
     }
 }

@@ -1,10 +1,14 @@
 #include "unit/levels/watertight_check.h"
 #include "volume/frame_source.h"
+#if ISOGLASS_VTK
+#include "vtkio/vtk_image.h"
+#endif
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -56,6 +60,10 @@ void expectWatertightViews(FrameSource& source, const std::vector<float>& isoVal
                      .view = view,
                      .threads = 1};
         c.gate = i % 2 == 0 ? 0 : 0.05f;
+        if (i % 3 == 2) {
+            c.options.view->cellPixels = 0;
+            c.options.view->errorPixels = std::exp(dice.between(0, std::log(200.0)));
+        }
         test::expectWatertight(c, totals);
     }
     std::printf("%s: %zu views, %zu triangles, bricks by%s\n", name.c_str(), totals.views, totals.triangles,
@@ -73,19 +81,43 @@ TEST(LevelsOfRealData, OceanExcerptIsWatertight) {
     expectWatertightViews(*source, {5, 10, 15, 20}, {1, 1, 0.05}, "ocean excerpt", viewCount());
 }
 
-// Bytes: the iso-values equal samples.
-TEST(LevelsOfRealData, StormIsWatertight) {
-    const char* folder = std::getenv("ISOGLASS_DATA");
-    if (!folder) GTEST_SKIP() << "ISOGLASS_DATA is not set";
+/// The files of a folder of ISOGLASS_DATA whose names contain `part`, sorted; none without the data.
+std::vector<std::filesystem::path> dataFiles(const std::string& folder, const std::string& part) {
+    const char* data = std::getenv("ISOGLASS_DATA");
+    if (!data) return {};
     std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(folder) / "storm")) {
-        if (entry.path().filename().string().starts_with("Storm.pvm")) files.push_back(entry.path());
+    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(data) / folder)) {
+        if (entry.path().filename().string().find(part) != std::string::npos) files.push_back(entry.path());
     }
     std::ranges::sort(files);
-    ASSERT_GT(files.size(), 2u);
+    return files;
+}
+
+// Bytes: the iso-values equal samples.
+TEST(LevelsOfRealData, StormIsWatertight) {
+    const auto files = dataFiles("storm", "Storm.pvm");
+    if (files.empty()) GTEST_SKIP() << "ISOGLASS_DATA is not set";
     const auto source = openPvm(files, {});
     expectWatertightViews(*source, {25, 76, 128}, glm::dvec3(1), "storm", viewCount());
 }
+
+#if ISOGLASS_VTK
+// A descending axis, uneven times, and land of value 0 exactly.
+TEST(LevelsOfRealData, IsabelIsWatertight) {
+    const auto files = dataFiles("isabel", ".vti");
+    if (files.empty()) GTEST_SKIP() << "ISOGLASS_DATA is not set";
+    const auto source = openVtkImages(files, {});
+    expectWatertightViews(*source, {20, 30, 40, 50}, {1, 1, 0.2}, "Isabel", viewCount());
+}
+
+// Pieces that merge and split.
+TEST(LevelsOfRealData, FingersAreWatertight) {
+    const auto files = dataFiles("fingers", ".vti");
+    if (files.empty()) GTEST_SKIP() << "ISOGLASS_DATA is not set";
+    const auto source = openVtkImages(files, {});
+    expectWatertightViews(*source, {15, 25, 35, 50}, glm::dvec3(1), "fingers", viewCount());
+}
+#endif
 
 }  // namespace
 }  // namespace isoglass

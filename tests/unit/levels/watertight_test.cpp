@@ -1,4 +1,5 @@
 #include "unit/levels/watertight_check.h"
+#include "unit/surface/surface_check.h"
 
 #include <gtest/gtest.h>
 
@@ -67,6 +68,28 @@ TEST(Levels, RandomViewsByTheErrorMetricAreWatertight) {
     std::printf("%zu views, %zu triangles, bricks by%s\n", totals.views, totals.triangles,
                 levelCounts(totals).c_str());
     for (int level = 0; level <= 2; ++level) EXPECT_GT(totals.bricks[level], 20u) << level;
+}
+
+TEST(Levels, ThreadsDoNotChangeABit) {
+    for (std::uint32_t seed = 0; seed < 12; ++seed) {
+        LevelCase c = test::makeLevelCase(seed + 3000, static_cast<Kind>(seed % test::kKinds),
+                                          seed % 2 == 0 ? glm::ivec3(90, 70, 81) : glm::ivec3(65));
+        if (seed % 2 == 1) useErrorMetric(c, seed);
+        if (seed % 4 >= 2) {
+            for (std::size_t i = 0; i < 40; ++i)
+                c.samples[i % 2][7919 * i + 101] = std::numeric_limits<float>::quiet_NaN();
+            test::rebuild(c);
+        }
+        c.options.still = seed % 3 == 0;
+        c.options.threads = 1;
+        const SurfaceMesh one = extractSurface(c.lattice, c.field, c.options).mesh;
+        EXPECT_FALSE(one.empty()) << c.name;
+        for (const int threads : {2, 3, 7}) {
+            c.options.threads = threads;
+            EXPECT_TRUE(test::sameBytes(one, extractSurface(c.lattice, c.field, c.options).mesh))
+                << c.name << ", " << threads << " threads";
+        }
+    }
 }
 
 // Each hole of a few samples, or a slab as land under an ocean; in one of the key frames or in both.
