@@ -55,6 +55,7 @@ float blendWeight(float sizeRatio) {
 void BlendedBrick::load(const LevelFields& fields, LevelBrick node) {
     fields_ = &fields;
     node_ = node;
+    sizesKnown_ = false;
     ++loads_;
     gatherBrick(fields.space.levels[node.level], fields.fields[node.level], node.brick, fields.sign, scratch_,
                 own_);
@@ -97,7 +98,8 @@ void BlendedBrick::loadCoarser(const LevelFields& fields) {
     if (level + 1 < fields.space.top()) {
         for (int place = 0; place < kHalf * kHalf * kHalf; ++place) {
             const glm::ivec3 local(place / (kHalf * kHalf), place / kHalf % kHalf, place % kHalf);
-            halfWeights_[place] = blendWeight(sizeRatio(1, local));
+            // Vertices of the next level are every second one of the brick.
+            halfWeights_[place] = blendWeight(0.5f * sizeRatio(cornerPlace(2 * local)));
             largest = std::max(largest, halfWeights_[place]);
         }
     }
@@ -117,10 +119,10 @@ void BlendedBrick::loadCoarser(const LevelFields& fields) {
     blendRows<kCornersPerSide>(row, weights_.data(), values_.data());
 }
 
-float BlendedBrick::sizeRatio(int levelsUp, glm::ivec3 local) const {
-    const int level = node_.level + levelsUp;
-    const glm::ivec3 index = (node_.brick * (kBrickSize >> levelsUp) + local) * (1 << level);
-    return fields_->sizes.at(index) / static_cast<float>(1 << level);
+const std::array<float, kBrickCorners>& BlendedBrick::sizes() {
+    if (!sizesKnown_) fields_->sizes.inBrick(node_, sizes_);
+    sizesKnown_ = true;
+    return sizes_;
 }
 
 /// A channel at a vertex of the level `levelsUp` above that of the brick.

@@ -61,10 +61,7 @@ class BlendedBrick {
     const std::array<float, kBrickCorners>& values() const { return values_; }
     bool hasMissing() const { return hasMissing_; }
     /// Allowed size over the size of the brick's cells, at a vertex given by its place.
-    float sizeRatio(int place) const {
-        return sizeRatio(0, {place / (kCornersPerSide * kCornersPerSide),
-                             place / kCornersPerSide % kCornersPerSide, place % kCornersPerSide});
-    }
+    float sizeRatio(int place) { return sizes()[place] / static_cast<float>(1 << node_.level); }
     /// Position and gradient at a vertex whose value is valid. Computed once.
     const Channels& channels(glm::ivec3 corner);
 
@@ -73,7 +70,7 @@ class BlendedBrick {
     static constexpr int kQuarter = kBrickSize / 4 + 1;  // and on the one after it
 
     void loadCoarser(const LevelFields& fields);
-    float sizeRatio(int levelsUp, glm::ivec3 local) const;
+    const std::array<float, kBrickCorners>& sizes();
     glm::dvec3 position(glm::ivec3 corner) const;
     glm::vec3 gradient(glm::ivec3 corner) const;
     template <typename Value, typename OnLevel>
@@ -87,6 +84,8 @@ class BlendedBrick {
     BrickField own_;
     BrickField scratch_;
     std::array<float, kBrickCorners> values_;
+    std::array<float, kBrickCorners> sizes_;  ///< allowed ones; only where asked for
+    bool sizesKnown_ = false;
     std::array<float, kBrickCorners> weights_;  ///< beta; only where blendedLevels_ > 0
     /// The next two levels with a border of one vertex, and the weights of the first of them.
     std::array<float, (kHalf + 2) * (kHalf + 2) * (kHalf + 2)> half_;

@@ -16,9 +16,7 @@ namespace isoglass {
 
 namespace {
 
-constexpr std::size_t kBlocksPerTask = 2048;
-/// A block whose range is this many steps of the gradient away from the iso-value does not count.
-constexpr float kReach = 2;
+constexpr std::size_t kBlocksPerTask = 256;
 /// Least gradient, as a share of half the range of the field.
 constexpr float kLeastGradient = 1e-6f;
 constexpr float kUnlimited = std::numeric_limits<float>::max();
@@ -39,10 +37,17 @@ class Blocks {
         return mixed(a_.bound(block, level), [&] { return b_->bound(block, level); });
     }
     ValueRange range(std::size_t block) const {
-        return b_ ? rangeInTime(a_.range(block), b_->range(block), fraction_) : a_.range(block);
+        return b_ ? inTime(a_.range(block), b_->range(block)) : a_.range(block);
+    }
+
+    ValueRange wholeRange() const { return b_ ? inTime(a_.wholeRange(), b_->wholeRange()) : a_.wholeRange(); }
+    ValueRange reach(int up, glm::ivec3 cube) const {
+        return b_ ? inTime(a_.reach(up, cube), b_->reach(up, cube)) : a_.reach(up, cube);
     }
 
   private:
+    ValueRange inTime(ValueRange a, ValueRange b) const { return rangeInTime(a, b, fraction_); }
+
     template <typename Other>
     float mixed(float a, const Other& b) const {
         return b_ ? a + fraction_ * (b() - a) : a;
@@ -53,12 +58,12 @@ class Blocks {
     float fraction_;
 };
 
-/// How much a block counts: 1 where its range holds the iso-value, 0 from kReach steps away on.
+/// How much a block counts: 1 where its range holds the iso-value, 0 from DetailError::kReach steps away on.
 float weightOf(ValueRange range, float iso, float step) {
     if (!(range.min <= range.max)) return 0;
     const float distance = std::max({range.min - iso, iso - range.max, 0.0f});
     if (distance == 0) return 1;
-    return std::max(0.0f, 1 - distance / (kReach * step));
+    return std::max(0.0f, 1 - distance / (DetailError::kReach * step));
 }
 
 /// Bounds are largest values over a block and sums over levels. On smooth fields the displacement of 99.9 of
@@ -111,163 +116,190 @@ std::vector<float> nearestSquares(const LevelSpace& space, const View& view, int
     return squares;
 }
 
-/// Along `axis`: no value above its neighbour's and `growth`.
-void sweep(glm::ivec3 dims, int axis, float growth, std::vector<float>& values) {
-    const std::array<std::size_t, 3> strides = {1, static_cast<std::size_t>(dims.x),
-                                                static_cast<std::size_t>(dims.x) * dims.y};
-    const std::size_t stride = strides[axis];
-    const std::size_t count = values.size();
-    const auto isFirst = [&](std::size_t i) { return i / stride % dims[axis] == 0; };
-    for (std::size_t i = stride; i < count; ++i)
-        if (!isFirst(i)) values[i] = std::min(values[i], values[i - stride] + growth);
-    for (std::size_t i = count - stride; i-- > 0;)
-        if (!isFirst(i + stride)) values[i] = std::min(values[i], values[i + stride] + growth);
-}
-
 glm::ivec3 cornerOf(int corner) {
     return {corner & 1, corner >> 1 & 1, corner >> 2};
 }
 
-glm::ivec3 placeOf(std::size_t linear, glm::ivec3 n) {
-    return {linear % n.x, linear / n.x % n.y, linear / (static_cast<std::size_t>(n.x) * n.y)};
-}
-
 /// Gradients below this are taken for it, so that displacements stay finite.
-float leastGradient(const Blocks& blocks, std::size_t count) {
-    float lowest = kUnlimited;
-    float highest = -kUnlimited;
-    for (std::size_t i = 0; i < count; ++i) {
-        const ValueRange range = blocks.range(i);
-        if (!(range.min <= range.max)) continue;
-        lowest = std::min(lowest, range.min);
-        highest = std::max(highest, range.max);
-    }
-    return std::max(kLeastGradient * (highest / 2 - lowest / 2), std::numeric_limits<float>::min());
+float leastGradient(const Blocks& blocks) {
+    const ValueRange range = blocks.wholeRange();
+    if (!(range.min <= range.max)) return std::numeric_limits<float>::min();
+    return std::max(kLeastGradient * (range.max / 2 - range.min / 2), std::numeric_limits<float>::min());
 }
 
-/// kUnlimited where a block does not count.
+/// Finds the blocks that may count, from the top.
+class Finder {
+  public:
+    Finder(const Blocks& blocks, float iso, float least)
+        : blocks_(blocks), iso_(iso), slack_(DetailError::kReach * least) {
+        visit(blocks.shape().topReach(), glm::ivec3(0));
+    }
+    const std::vector<glm::ivec3>& found() const { return found_; }
+
+  private:
+    void visit(int up, glm::ivec3 cube) {
+        const glm::ivec3 n = blocks_.shape().blocks();
+        for (int k = 0; k < 3; ++k) {
+            if (cube[k] << up >= n[k]) return;
+        }
+        const ValueRange reach = widened(blocks_.reach(up, cube));
+        if (!(reach.min - slack_ <= iso_ && iso_ <= reach.max + slack_)) return;
+        if (up == 0) {
+            found_.push_back(cube);
+            return;
+        }
+        for (int part = 0; part < 8; ++part) visit(up - 1, 2 * cube + cornerOf(part));
+    }
+
+    const Blocks& blocks_;
+    const float iso_;
+    const float slack_;
+    std::vector<glm::ivec3> found_;
+};
+
+/// The size of each block of `found`; kUnlimited where it does not count.
 std::vector<float> sizesOfBlocks(const LevelSpace& space, const View& view, const Blocks& blocks, float iso,
-                                 int side, int threads) {
+                                 const std::vector<glm::ivec3>& found, float least, int side, int threads) {
     const glm::ivec3 n = blocks.shape().blocks();
     double edge = 0;
     for (int k = 0; k < 3; ++k) edge = std::max(edge, space.largestStep[k] * std::abs(view.worldPerUnit[k]));
     const double cellsPerLength = view.errorPixels / (view.pixelsPerUnit * edge);
     std::array<std::vector<float>, 3> squares;
     for (int k = 0; k < 3; ++k) squares[k] = nearestSquares(space, view, k, n[k], side, cellsPerLength);
-    std::vector<float> sizes(static_cast<std::size_t>(n.x) * n.y * n.z, kUnlimited);
-    const float least = leastGradient(blocks, sizes.size());
-    parallelFor(sizes.size(), kBlocksPerTask, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> sizes(found.size(), kUnlimited);
+    parallelFor(found.size(), kBlocksPerTask, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const float gradient = std::max(blocks.gradient(i), least);
-            const float weight = weightOf(blocks.range(i), iso, gradient);
+            const glm::ivec3 at = found[i];
+            const std::size_t block = (static_cast<std::size_t>(at.z) * n.y + at.y) * n.x + at.x;
+            const float gradient = std::max(blocks.gradient(block), least);
+            const float weight = weightOf(blocks.range(block), iso, gradient);
             if (weight == 0) continue;
-            const glm::ivec3 at = placeOf(i, n);
             const float allowed = std::sqrt(squares[0][at.x] + squares[1][at.y] + squares[2][at.z]);
-            sizes[i] = sizeFor(blocks, i, weight / gradient, allowed);
+            sizes[i] = sizeFor(blocks, block, weight / gradient, allowed);
         }
     });
     return sizes;
 }
 
-}  // namespace
+/// A corner has the smallest size of the blocks around it.
+CornerGrid sizesAtCorners(glm::ivec3 blocks, const std::vector<glm::ivec3>& found,
+                          const std::vector<float>& sizes) {
+    CornerGrid corners(blocks + 1, kUnlimited);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        for (int corner = 0; corner < 8; ++corner) {
+            float& value = corners.values[corners.place(found[i] + cornerOf(corner))];
+            value = std::min(value, sizes[i]);
+        }
+    }
+    return corners;
+}
 
-ErrorSizes::Grid::Grid(glm::ivec3 n)
-    : dims(n), values(static_cast<std::size_t>(n.x) * n.y * n.z, kUnlimited) {}
+}  // namespace
 
 ErrorSizes::ErrorSizes(const LevelSpace& space, const View& view, const TimedField& field, float iso,
                        float growthPerBrick, int threads) {
     const Blocks blocks(field);
     blockLevel_ = blocks.shape().blockLevel();
     side_ = kBrickSize << blockLevel_;
-    takeBlocks(blocks.shape().blocks(), sizesOfBlocks(space, view, blocks, iso, side_, threads));
-    for (int axis = 0; axis < 3; ++axis)
-        sweep(corners_.dims, axis, growthPerBrick * static_cast<float>(1 << blockLevel_), corners_.values);
-    smallest_ = picked([](float a, float b) { return std::min(a, b); });
-    largest_ = picked([](float a, float b) { return std::max(a, b); });
-}
-
-/// A corner has the smallest size of the blocks around it.
-void ErrorSizes::takeBlocks(glm::ivec3 blocks, const std::vector<float>& sizes) {
-    corners_ = Grid(blocks + 1);
-    for (std::size_t i = 0; i < sizes.size(); ++i) {
-        if (sizes[i] == kUnlimited) continue;
-        for (int corner = 0; corner < 8; ++corner) {
-            float& value = corners_.values[corners_.place(placeOf(i, blocks) + cornerOf(corner))];
-            value = std::min(value, sizes[i]);
-        }
-    }
-}
-
-/// What `pick` takes over the corners of the closed cubes of 1, 2, 4, ... blocks a side.
-template <typename Pick>
-std::vector<ErrorSizes::Grid> ErrorSizes::picked(Pick pick) const {
-    const auto forEach = [](glm::ivec3 dims, auto visit) {
-        glm::ivec3 i;
-        for (i.z = 0; i.z < dims.z; ++i.z)
-            for (i.y = 0; i.y < dims.y; ++i.y)
-                for (i.x = 0; i.x < dims.x; ++i.x) visit(i);
-    };
-    std::vector<Grid> grids(1, Grid(corners_.dims - 1));
-    forEach(grids[0].dims, [&](glm::ivec3 i) {
-        float value = corners_.at(i);
-        for (int corner = 1; corner < 8; ++corner) value = pick(value, corners_.at(i + cornerOf(corner)));
-        grids[0].values[grids[0].place(i)] = value;
-    });
-    while (grids.back().dims != glm::ivec3(1)) {
-        const Grid& fine = grids.back();
-        Grid coarse((fine.dims + 1) / 2);
-        forEach(coarse.dims, [&](glm::ivec3 i) {
-            float value = fine.at(2 * i);
-            for (int part = 1; part < 8; ++part) value = pick(value, fine.at(2 * i + cornerOf(part)));
-            coarse.values[coarse.place(i)] = value;
-        });
-        grids.push_back(std::move(coarse));
-    }
-    return grids;
+    const float least = leastGradient(blocks);
+    const std::vector<glm::ivec3> found = Finder(blocks, iso, least).found();
+    corners_ = sizesAtCorners(blocks.shape().blocks(), found,
+                              sizesOfBlocks(space, view, blocks, iso, found, least, side_, threads));
+    limitGrowth(corners_, growthPerBrick * static_cast<float>(1 << blockLevel_), threads);
+    smallest_ = smallestInCubes(corners_, threads);
 }
 
 float ErrorSizes::at(glm::ivec3 index) const {
     const glm::ivec3 block = index / side_;
     const glm::ivec3 part = index - block * side_;
+    std::array<std::ptrdiff_t, 3> stride = {1, corners_.dims.x,
+                                            static_cast<std::ptrdiff_t>(corners_.dims.x) * corners_.dims.y};
+    for (int k = 0; k < 3; ++k) {
+        if (block[k] + 1 >= corners_.dims[k]) stride[k] = 0;
+    }
+    return between(&corners_.values[corners_.place(glm::min(block, corners_.dims - 1))], stride, part);
+}
+
+/// From the value at the first corner of a block, `part` cells on along each axis. `stride` leads to the next
+/// corners, 0 where there is none.
+float ErrorSizes::between(const float* corner, const std::array<std::ptrdiff_t, 3>& stride,
+                          glm::ivec3 part) const {
+    float value = *corner;
     // The way from the first corner of the block to its last one, the longest part first.
     std::array<int, 3> order = {0, 1, 2};
     if (part[order[0]] < part[order[1]]) std::swap(order[0], order[1]);
     if (part[order[1]] < part[order[2]]) std::swap(order[1], order[2]);
     if (part[order[0]] < part[order[1]]) std::swap(order[0], order[1]);
-    glm::ivec3 corner = block;
-    float value = corners_.at(corner);
-    if (part[order[0]] == 0) return value;
     const float share = 1.0f / static_cast<float>(side_);
     float before = value;
     for (int k = 0; k < 3 && part[order[k]] > 0; ++k) {
-        ++corner[order[k]];
-        const float here = corners_.at(corner);
-        value += share * static_cast<float>(part[order[k]]) * (here - before);
-        before = here;
+        corner += stride[order[k]];
+        value += share * static_cast<float>(part[order[k]]) * (*corner - before);
+        before = *corner;
     }
     return value;
 }
 
-template <typename Pick>
-float ErrorSizes::inCube(const std::vector<Grid>& grids, int level, glm::ivec3 first, Pick pick) const {
+void ErrorSizes::lower(int level, glm::ivec3 first, std::span<float> sizes) const {
+    constexpr int kSide = kBrickSize + 1;
+    struct Place {
+        std::ptrdiff_t offset;  ///< of the block's first corner
+        std::ptrdiff_t stride;
+        int part;
+    };
+    std::array<std::array<Place, kSide>, 3> places;
+    std::ptrdiff_t stride = 1;
+    for (int k = 0; k < 3; ++k) {
+        const int last = corners_.dims[k] - 1;
+        for (int i = 0; i < kSide; ++i) {
+            const int index = first[k] + (i << level);
+            const int block = index / side_;
+            places[k][i] = {std::min(block, last) * stride, block < last ? stride : 0, index - block * side_};
+        }
+        stride *= corners_.dims[k];
+    }
+    float* size = sizes.data();
+    for (const Place& x : places[0]) {
+        for (const Place& y : places[1]) {
+            for (const Place& z : places[2]) {
+                const float* const corner = corners_.values.data() + x.offset + y.offset + z.offset;
+                *size = std::min(*size,
+                                 between(corner, {x.stride, y.stride, z.stride}, {x.part, y.part, z.part}));
+                ++size;
+            }
+        }
+    }
+}
+
+float ErrorSizes::smallest(int level, glm::ivec3 first) const {
     if (level >= blockLevel_) {
         const int up = level - blockLevel_;
-        const int last = static_cast<int>(grids.size()) - 1;
-        return grids[std::min(up, last)].at(first / side_ >> up);
+        const int last = static_cast<int>(smallest_.size()) - 1;
+        return smallest_[std::min(up, last)].at(first / side_ >> up);
     }
-    // Part of a block: linear in its tetrahedra, so smallest and largest at its corners.
+    return inBlock(level, first, [](float a, float b) { return std::min(a, b); });
+}
+
+float ErrorSizes::largest(int level, glm::ivec3 first) const {
+    if (level < blockLevel_) return inBlock(level, first, [](float a, float b) { return std::max(a, b); });
+    const glm::ivec3 last = glm::min(corners_.dims - 1, first / side_ + (1 << (level - blockLevel_)));
+    const glm::ivec3 begin = glm::min(first / side_, last);
+    float value = 0;
+    glm::ivec3 i;
+    for (i.z = begin.z; i.z <= last.z; ++i.z)
+        for (i.y = begin.y; i.y <= last.y; ++i.y)
+            for (i.x = begin.x; i.x <= last.x; ++i.x)
+                value = std::max(value, corners_.values[corners_.place(i)]);
+    return value;
+}
+
+/// Sizes are linear in the tetrahedra of a part of a block, so smallest and largest at its corners.
+template <typename Pick>
+float ErrorSizes::inBlock(int level, glm::ivec3 first, Pick pick) const {
     float value = at(first);
     for (int corner = 1; corner < 8; ++corner)
         value = pick(value, at(first + cornerOf(corner) * (kBrickSize << level)));
     return value;
-}
-
-float ErrorSizes::smallest(int level, glm::ivec3 first) const {
-    return inCube(smallest_, level, first, [](float a, float b) { return std::min(a, b); });
-}
-
-float ErrorSizes::largest(int level, glm::ivec3 first) const {
-    return inCube(largest_, level, first, [](float a, float b) { return std::max(a, b); });
 }
 
 }  // namespace isoglass

@@ -1,13 +1,15 @@
 #pragma once
 
+#include "surface/corner_grid.h"
 #include "surface/extract.h"
 #include "surface/level_space.h"
 #include "surface/view.h"
 
-#include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace isoglass {
@@ -28,6 +30,9 @@ inline constexpr double kErrorPerCell = 0.002;
 /// sizes grow no faster than levels may; in between they are linear in the six tetrahedra of a block that go
 /// from its first corner to its last.
 ///
+/// Blocks that do not count are passed over in the octree, so that what a moment costs follows the surface,
+/// but for a few passes over the corners, of which there are at most about 2^16.
+///
 /// An estimate, not a bound: where the gradient varies inside a block the surface may move farther.
 /// Immutable; any number of threads may ask.
 class ErrorSizes {
@@ -38,37 +43,23 @@ class ErrorSizes {
 
     /// At a level-0 index, in units of the level-0 cell, at least 1.
     float at(glm::ivec3 index) const;
+    /// Lowers sizes of vertices to these, bit by bit those of `at`: 9^3 vertices, z fastest, from level-0
+    /// index `first` on, 2^level apart.
+    void lower(int level, glm::ivec3 first, std::span<float> sizes) const;
     /// Smallest and largest over the lattice vertices in the closed cube of 8 * 2^level cells from cell
     /// `first` on, a multiple of that.
     float smallest(int level, glm::ivec3 first) const;
     float largest(int level, glm::ivec3 first) const;
 
   private:
-    /// Values by place, x fastest; beyond the end those at the nearest place.
-    struct Grid {
-        Grid() = default;
-        explicit Grid(glm::ivec3 n);
-
-        std::size_t place(glm::ivec3 i) const {
-            return (static_cast<std::size_t>(i.z) * dims.y + i.y) * dims.x + i.x;
-        }
-        float at(glm::ivec3 i) const { return values[place(glm::min(i, dims - 1))]; }
-
-        glm::ivec3 dims{0};
-        std::vector<float> values;
-    };
-
-    void takeBlocks(glm::ivec3 blocks, const std::vector<float>& sizes);
+    float between(const float* corner, const std::array<std::ptrdiff_t, 3>& stride, glm::ivec3 part) const;
     template <typename Pick>
-    std::vector<Grid> picked(Pick pick) const;
-    template <typename Pick>
-    float inCube(const std::vector<Grid>& grids, int level, glm::ivec3 first, Pick pick) const;
+    float inBlock(int level, glm::ivec3 first, Pick pick) const;
 
-    int side_ = 0;                ///< cells along a block
-    int blockLevel_ = 0;          ///< 8 * 2^blockLevel_ of them
-    Grid corners_;                ///< one more along each axis than blocks
-    std::vector<Grid> smallest_;  ///< over the corners of the closed cubes of 2^i blocks a side
-    std::vector<Grid> largest_;
+    int side_ = 0;                      ///< cells along a block
+    int blockLevel_ = 0;                ///< 8 * 2^blockLevel_ of them
+    CornerGrid corners_;                ///< one more along each axis than blocks
+    std::vector<CornerGrid> smallest_;  ///< over the corners of the closed cubes of 2^i blocks a side
 };
 
 }  // namespace isoglass

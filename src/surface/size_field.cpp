@@ -90,6 +90,31 @@ float SizeField::at(glm::ivec3 index) const {
     return missing_.empty() ? size : std::min(size, missingLimit(index));
 }
 
+void SizeField::inBrick(LevelBrick node, std::span<float> sizes) const {
+    constexpr int kSide = kBrickSize + 1;
+    const glm::ivec3 first = node.brick * (kBrickSize << node.level);
+    std::array<std::array<float, kSide>, 3> squares;
+    for (int k = 0; k < 3; ++k) {
+        for (int i = 0; i < kSide; ++i) squares[k][i] = squares_[k][first[k] + (i << node.level)];
+    }
+    float* row = sizes.data();
+    for (int x = 0; x < kSide; ++x) {
+        for (int y = 0; y < kSide; ++y, row += kSide) {
+            const float sum = squares[0][x] + squares[1][y];
+            for (int z = 0; z < kSide; ++z) row[z] = std::max(1.0f, std::sqrt(sum + squares[2][z]));
+        }
+    }
+    if (errors_) errors_->lower(node.level, first, sizes);
+    if (missing_.empty()) return;
+    float* size = sizes.data();
+    for (int x = 0; x < kSide; ++x) {
+        for (int y = 0; y < kSide; ++y) {
+            for (int z = 0; z < kSide; ++z, ++size)
+                *size = std::min(*size, missingLimit(first + (glm::ivec3(x, y, z) << node.level)));
+        }
+    }
+}
+
 /// Linear in each of the six tetrahedra of a brick that go from its first corner to its last.
 float SizeField::missingLimit(glm::ivec3 index) const {
     const glm::ivec3 brick = index / kBrickSize;

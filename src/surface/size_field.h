@@ -10,6 +10,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace isoglass {
@@ -43,6 +44,8 @@ class SizeField {
 
     /// At a level-0 index, which may lie in the padding beyond the domain.
     float at(glm::ivec3 index) const;
+    /// At the 9^3 vertices of a brick, z fastest, bit by bit as `at`.
+    void inBrick(LevelBrick node, std::span<float> sizes) const;
     /// Smallest over the lattice vertices of a closed brick.
     float smallest(LevelBrick node) const;
     /// A bound for the sizes in a closed brick.

@@ -14,7 +14,7 @@ namespace isoglass {
 
 namespace {
 
-constexpr std::size_t kMostBlocks = std::size_t{1} << 18;
+constexpr std::size_t kMostBlocks = std::size_t{1} << 16;
 constexpr std::size_t kBlocksPerTask = 64;
 constexpr int kLargestBox = kBrickSize + 1;
 
@@ -31,6 +31,11 @@ int blockLevelFor(glm::ivec3 cells) {
     int level = 0;
     while (count(blocksAt(cells, level)) > kMostBlocks) ++level;
     return level;
+}
+
+void include(ValueRange& range, ValueRange other) {
+    range.min = std::min(range.min, other.min);
+    range.max = std::max(range.max, other.max);
 }
 
 float valueIn(const BrickView& brick, int x, int y, int z) {
@@ -127,7 +132,7 @@ class DetailError::Builder {
         const int side = 1 << result_.blockLevel_;
         const glm::ivec3 bricks = (base_.cells() + (kBrickSize - 1)) / kBrickSize;
         const glm::ivec3 end = glm::min((place + 1) * side, bricks);
-        ValueRange range{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
+        ValueRange range;
         std::fill(details_.begin(), details_.end(), 0.0f);
         gradientSum_ = 0;
         gradientCount_ = 0;
@@ -136,7 +141,7 @@ class DetailError::Builder {
             for (brick.y = place.y * side; brick.y < end.y; ++brick.y) {
                 for (brick.x = place.x * side; brick.x < end.x; ++brick.x) {
                     const ValueRange own = base_.range(base_.linear(brick));
-                    range = {std::min(range.min, own.min), std::max(range.max, own.max)};
+                    include(range, own);
                     addBrick(brick, own.min < own.max);
                 }
             }
@@ -190,15 +195,54 @@ DetailError::DetailError(const KeyFrame& base, const Pyramid& pyramid)
         Builder builder(base, pyramid, *this);
         for (std::size_t block = begin; block < end; ++block) builder.build(block);
     });
+    for (const ValueRange& range : ranges_) include(wholeRange_, range);
+    addReaches();
+}
+
+void DetailError::addReaches() {
+    Reaches fine{blocks_, ranges_};
+    for (std::size_t i = 0; i < ranges_.size(); ++i) {
+        fine.ranges[i].min -= kReach * gradients_[i];
+        fine.ranges[i].max += kReach * gradients_[i];
+    }
+    reaches_.push_back(std::move(fine));
+    while (reaches_.back().dims != glm::ivec3(1)) {
+        const glm::ivec3 dims = reaches_.back().dims;
+        Reaches coarse{(dims + 1) / 2, std::vector<ValueRange>(count((dims + 1) / 2))};
+        std::size_t place = 0;
+        glm::ivec3 i;
+        for (i.z = 0; i.z < dims.z; ++i.z) {
+            for (i.y = 0; i.y < dims.y; ++i.y) {
+                for (i.x = 0; i.x < dims.x; ++i.x, ++place) {
+                    const glm::ivec3 to = i / 2;
+                    include(
+                        coarse
+                            .ranges[(static_cast<std::size_t>(to.z) * coarse.dims.y + to.y) * coarse.dims.x +
+                                    to.x],
+                        reaches_.back().ranges[place]);
+                }
+            }
+        }
+        reaches_.push_back(std::move(coarse));
+    }
 }
 
 std::size_t DetailError::bytes() const {
-    return ranges_.size() * sizeof(ValueRange) + (gradients_.size() + bounds_.size()) * sizeof(float);
+    std::size_t reaches = 0;
+    for (const Reaches& level : reaches_) reaches += level.ranges.size() * sizeof(ValueRange);
+    return reaches + ranges_.size() * sizeof(ValueRange) +
+           (gradients_.size() + bounds_.size()) * sizeof(float);
 }
 
 std::size_t DetailError::largestBytes(glm::ivec3 cells) {
     const std::size_t perBlock = sizeof(ValueRange) + (1 + topLevel(cells)) * sizeof(float);
-    return count(blocksAt(cells, blockLevelFor(cells))) * perBlock;
+    glm::ivec3 blocks = blocksAt(cells, blockLevelFor(cells));
+    std::size_t bytes = count(blocks) * (perBlock + sizeof(ValueRange));
+    while (blocks != glm::ivec3(1)) {
+        blocks = (blocks + 1) / 2;
+        bytes += count(blocks) * sizeof(ValueRange);
+    }
+    return bytes;
 }
 
 }  // namespace isoglass

@@ -1,8 +1,10 @@
 #include "surface/error_sizes.h"
 
+#include "mesh/mesh_check.h"
 #include "support/mesh_distance.h"
 #include "unit/levels/balance_check.h"
 #include "unit/levels/level_case.h"
+#include "volume/detail_error.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace isoglass {
@@ -85,6 +88,42 @@ void expectContinuous(const Changes& changes) {
     // 1 / kErrorPerCell at most.
     constexpr double kRounding = 10 * 0x1p-24 / kErrorPerCell;
     EXPECT_LE(changes.fine, 0.1 * changes.coarse + kRounding);
+}
+
+// So many bricks that a block is two of them a side.
+TEST(ErrorSizes, OfLargeBlocksGrowNoFasterEither) {
+    const Lattice lattice = makeUnitLattice(400);
+    const TimedField field{makeSparseBlobs(lattice, 0, 0.05f), makeSparseBlobs(lattice, 0.1, 0.05f), 0.3f};
+    ASSERT_EQ(field.a->detailError().blockLevel(), 1);
+    View view{.eye = {1.2, 2, 0.5}, .pixelsPerUnit = 1000, .errorPixels = 1.5};
+    const LevelSpace space(lattice);
+    const SizeField sizes(space, view, field, 0.5f, 0);
+    test::expectBalanced(space, sizes);
+    const Extraction extraction = extractSurface(lattice, field, {.iso = 0.5f, .view = view});
+    EXPECT_LT(extraction.mesh.triangleCount(),
+              extractSurface(lattice, field, {.iso = 0.5f}).mesh.triangleCount() / 2);
+    const MeshTopology topology = checkTopology(extraction.mesh);
+    EXPECT_TRUE(topology.isOrientedManifold());
+}
+
+TEST(SizeField, OfABrickIsThatOfItsVertices) {
+    for (std::uint32_t seed = 0; seed < 6; ++seed) {
+        LevelCase c = errorCase(seed, Kind::blobs, {61, 57, 64}, 20);
+        if (seed % 2 == 1)
+            c.samples[0][30 * 61 * 57 + 20 * 61 + 11] = std::numeric_limits<float>::quiet_NaN();
+        test::rebuild(c);
+        const LevelSpace space(c.lattice);
+        const SizeField sizes(space, *c.options.view, c.field, c.options.iso, 1);
+        std::array<float, kBrickCorners> inBrick;
+        for (const LevelBrick node : {LevelBrick{0, {3, 2, 1}}, LevelBrick{1, {1, 1, 1}},
+                                      LevelBrick{3, {0, 0, 0}}, LevelBrick{0, {7, 7, 7}}}) {
+            sizes.inBrick(node, inBrick);
+            for (int place = 0; place < kBrickCorners; ++place) {
+                const glm::ivec3 v(place / 81, place / 9 % 9, place % 9);
+                ASSERT_EQ(inBrick[place], sizes.at((node.brick * kBrickSize + v) * (1 << node.level)));
+            }
+        }
+    }
 }
 
 TEST(ErrorSizes, AreContinuousInTheEye) {
