@@ -20,14 +20,13 @@ constexpr double kLongest = 1e6;
 std::vector<glm::vec3> normalVelocities(const SurfaceMesh& mesh, const Lattice& lattice,
                                         const TimedField& field, const ExtractOptions& options) {
     if (lattice.heights || field.fraction <= 0 || field.fraction >= 1) return {};
-    const auto before = sampleAtVertices(mesh, lattice, {field.a, nullptr, 0}, options.threads);
-    const auto after = sampleAtVertices(mesh, lattice, {nullptr, field.b, 1}, options.threads);
+    const std::vector<float> changes = changeAtVertices(mesh, lattice, field, options.threads);
     // Normals are -G, or G where the inside is below.
     const double sign = options.insideIsBelow ? -1 : 1;
     const double longest = kLongest * motionLimit(lattice);
     std::vector<glm::vec3> velocities(mesh.vertexCount());
     for (std::size_t i = 0; i < velocities.size(); ++i) {
-        const double change = static_cast<double>(after[i]) - before[i];
+        const double change = changes[i];
         if (!std::isfinite(change)) continue;
         const glm::dvec3 normal(mesh.normals[i]);
         const glm::dvec3 velocity = normal * (sign * change / glm::dot(normal, normal));

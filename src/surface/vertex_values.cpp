@@ -37,11 +37,17 @@ std::optional<Place> locate(const Axis& axis, double at) {
                          std::max({std::abs(first), std::abs(last), std::abs(first - last)});
     if (at < std::min(first, last) - slack || at > std::max(first, last) + slack) return std::nullopt;
     if (cells == 0) return Place{0, 0, 0};
-    int low = 0;
-    for (int high = cells; high - low > 1;) {
-        const int middle = (low + high) / 2;
-        const bool before = axis.descending() ? axis.coordinate(middle) >= at : axis.coordinate(middle) <= at;
-        (before ? low : high) = middle;
+    const auto isBefore = [&](int i) {
+        return axis.descending() ? axis.coordinate(i) >= at : axis.coordinate(i) <= at;
+    };
+    // Where it is on an even axis; else by bisection.
+    int low = std::clamp(static_cast<int>((at - first) / (last - first) * cells), 0, cells - 1);
+    if ((low > 0 && !isBefore(low)) || (low + 1 < cells && isBefore(low + 1))) {
+        low = 0;
+        for (int high = cells; high - low > 1;) {
+            const int middle = (low + high) / 2;
+            (isBefore(middle) ? low : high) = middle;
+        }
     }
     const double from = axis.coordinate(low);
     const double weight = (at - from) / (axis.coordinate(low + 1) - from);
@@ -65,33 +71,48 @@ double sampleFrame(const KeyFrame& frame, const std::array<Place, 3>& place) {
     return sum;
 }
 
-float sampleField(const Lattice& lattice, const TimedField& field, const glm::dvec3& position) {
-    std::array<Place, 3> place;
-    for (int k = 0; k < 3; ++k) {
-        const auto found = locate(lattice.axes[k], position[k]);
-        if (!found) return kMissing;
-        place[k] = *found;
-    }
-    if (field.fraction == 1) return static_cast<float>(sampleFrame(*field.b, place));
-    const double a = sampleFrame(*field.a, place);
-    if (field.fraction == 0) return static_cast<float>(a);
-    return static_cast<float>(a + field.fraction * (sampleFrame(*field.b, place) - a));
-}
-
-}  // namespace
-
-std::vector<float> sampleAtVertices(const SurfaceMesh& mesh, const Lattice& lattice, const TimedField& field,
-                                    int threads) {
+/// `valueAt` what lies at the place of each vertex.
+template <typename ValueAt>
+std::vector<float> atVertices(const SurfaceMesh& mesh, const Lattice& lattice, int threads,
+                              const ValueAt& valueAt) {
     if (lattice.heights) {
         throw Error("samples that have heights of their own cannot be looked up by position yet",
                     "colour by a value", "use a series without heights");
     }
     std::vector<float> values(mesh.vertexCount());
     parallelFor(values.size(), kVerticesPerTask, threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            values[i] = sampleField(lattice, field, mesh.origin + glm::dvec3(mesh.positions[i]));
+        for (std::size_t i = begin; i < end; ++i) {
+            const glm::dvec3 position = mesh.origin + glm::dvec3(mesh.positions[i]);
+            std::array<Place, 3> place;
+            bool inside = true;
+            for (int k = 0; k < 3 && inside; ++k) {
+                const auto found = locate(lattice.axes[k], position[k]);
+                inside = found.has_value();
+                if (inside) place[k] = *found;
+            }
+            values[i] = inside ? static_cast<float>(valueAt(place)) : kMissing;
+        }
     });
     return values;
+}
+
+}  // namespace
+
+std::vector<float> sampleAtVertices(const SurfaceMesh& mesh, const Lattice& lattice, const TimedField& field,
+                                    int threads) {
+    return atVertices(mesh, lattice, threads, [&](const std::array<Place, 3>& place) {
+        if (field.fraction == 1) return sampleFrame(*field.b, place);
+        const double a = sampleFrame(*field.a, place);
+        if (field.fraction == 0) return a;
+        return a + field.fraction * (sampleFrame(*field.b, place) - a);
+    });
+}
+
+std::vector<float> changeAtVertices(const SurfaceMesh& mesh, const Lattice& lattice, const TimedField& field,
+                                    int threads) {
+    return atVertices(mesh, lattice, threads, [&](const std::array<Place, 3>& place) {
+        return sampleFrame(*field.b, place) - sampleFrame(*field.a, place);
+    });
 }
 
 std::vector<float> meanCurvature(const SurfaceMesh& mesh) {
