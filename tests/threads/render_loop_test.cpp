@@ -145,7 +145,7 @@ FrameMeshes movingSet(double limit) {
 }
 
 /// Left and right end of the square on the line through the middle, in world units, as pixels tell: each is
-/// 8 tan(15 degrees) / 64 wide.
+/// 8 tan(30 degrees) / 64 wide.
 std::array<double, 2> endsOf(const Image& image) {
     int first = image.size.x;
     int last = -1;

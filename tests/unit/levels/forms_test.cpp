@@ -2,6 +2,7 @@
 #include "support/mesh_distance.h"
 #include "surface/cell_form.h"
 #include "unit/levels/level_case.h"
+#include "unit/levels/triangle_set.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -32,25 +33,6 @@ SurfaceMesh meshFrom(LevelCase& c, glm::dvec3 eye) {
     return test::meshOf(c);
 }
 
-using Corners = std::array<std::array<float, 3>, 3>;
-
-/// Triangles by position, each from its smallest corner on, sorted: equal for equal surfaces whatever the
-/// order of vertices and triangles.
-std::vector<Corners> trianglesOf(const SurfaceMesh& mesh) {
-    std::vector<Corners> triangles;
-    for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
-        Corners corners;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const glm::vec3 p = mesh.positions[mesh.triangles[t + i]];
-            corners[i] = {p.x, p.y, p.z};
-        }
-        std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-        triangles.push_back(corners);
-    }
-    std::ranges::sort(triangles);
-    return triangles;
-}
-
 TEST(CellForms, WhereEverythingIsFineTheMeshIsThatOfFullResolution) {
     for (const Kind kind : {Kind::blobs, Kind::noise, Kind::integers}) {
         for (const bool below : {false, true}) {
@@ -63,7 +45,7 @@ TEST(CellForms, WhereEverythingIsFineTheMeshIsThatOfFullResolution) {
             const SurfaceMesh full = extractSurface(c.lattice, c.field, c.options).mesh;
             ASSERT_GT(full.triangleCount(), 0u);
             EXPECT_EQ(detailed.vertexCount(), full.vertexCount());
-            EXPECT_TRUE(trianglesOf(detailed) == trianglesOf(full));
+            EXPECT_TRUE(test::trianglesOf(detailed) == test::trianglesOf(full));
         }
     }
 }
@@ -99,7 +81,7 @@ TEST(CellForms, SlideMovesTheSurfaceNoFasterThanTheEye) {
             const SurfaceMesh before = meshFrom(c, eye);
             const SurfaceMesh after = meshFrom(c, eye + step * direction);
             largest = std::max(largest, test::surfaceDistance(before, after, 2, 8));
-            changed |= trianglesOf(before) != trianglesOf(after);
+            changed |= test::trianglesOf(before) != test::trianglesOf(after);
         }
         std::printf("step %g: surface moves by %.3g cells\n", step, largest);
         EXPECT_TRUE(changed);

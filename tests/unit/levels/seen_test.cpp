@@ -1,36 +1,23 @@
 // What a view does not see is left out of a mesh, and nothing else changes.
 
 #include "unit/levels/level_case.h"
+#include "unit/levels/triangle_set.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
-#include <set>
+#include <iterator>
+#include <vector>
 
 namespace isoglass {
 namespace {
 
-using Triangle = std::array<std::array<float, 6>, 3>;
+using test::Corners;
 
-/// Positions and normals of every triangle: meshes that number their vertices differently compare equal.
-std::multiset<Triangle> trianglesOf(const SurfaceMesh& mesh) {
-    std::multiset<Triangle> triangles;
-    for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
-        Triangle triangle;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const glm::vec3 p = mesh.positions[mesh.triangles[t + i]];
-            const glm::vec3 n = mesh.normals[mesh.triangles[t + i]];
-            triangle[i] = {p.x, p.y, p.z, n.x, n.y, n.z};
-        }
-        triangles.insert(triangle);
-    }
-    return triangles;
-}
-
-bool isHidden(const Triangle& triangle, const glm::dvec3& origin, const std::vector<glm::dvec4>& planes) {
+bool isHidden(const Corners& triangle, const glm::dvec3& origin, const std::vector<glm::dvec4>& planes) {
     return std::ranges::any_of(planes, [&](const glm::dvec4& plane) {
-        return std::ranges::all_of(triangle, [&](const std::array<float, 6>& vertex) {
+        return std::ranges::all_of(triangle, [&](const std::array<float, 3>& vertex) {
             const glm::dvec3 position = origin + glm::dvec3(vertex[0], vertex[1], vertex[2]);
             return glm::dot(plane, glm::dvec4(position, 1)) < 0;
         });
@@ -56,12 +43,12 @@ void expectOnlyUnseenIsMissing(test::LevelCase c, std::size_t& leftOut) {
     view.planes = randomPlanes(dice, view.eye, 0.5 * glm::dvec3(c.lattice.cells()));
     const Extraction seen = extractSurface(c.lattice, c.field, c.options);
     EXPECT_FALSE(whole.stats.leftOut);
-    const auto all = trianglesOf(whole.mesh);
-    const auto some = trianglesOf(seen.mesh);
+    const auto all = test::trianglesOf(whole.mesh);
+    const auto some = test::trianglesOf(seen.mesh);
     EXPECT_TRUE(std::ranges::includes(all, some));
-    std::multiset<Triangle> missing;
-    std::ranges::set_difference(all, some, std::inserter(missing, missing.end()));
-    for (const Triangle& triangle : missing) EXPECT_TRUE(isHidden(triangle, whole.mesh.origin, view.planes));
+    std::vector<Corners> missing;
+    std::ranges::set_difference(all, some, std::back_inserter(missing));
+    for (const Corners& triangle : missing) EXPECT_TRUE(isHidden(triangle, whole.mesh.origin, view.planes));
     EXPECT_TRUE(missing.empty() || seen.stats.leftOut);
     leftOut += missing.size();
     c.options.threads = 3;
