@@ -65,6 +65,8 @@ void addImport(CLI::App& app, std::function<void()>& run) {
     verb->add_flag("--time-from-name", command->timeFromName,
                    "The number that tells the files' names apart is the time of each")
         ->excludes(times);
+    verb->add_flag("!--no-levels", command->sparsity.levels,
+                   "Leave out the coarser levels, which help where the disk is slow: the file gets smaller");
     verb->add_option("--tolerance", command->sparsity.tolerance,
                      "Largest change of a sample that may make the series sparser")
         ->check(CLI::NonNegativeNumber);

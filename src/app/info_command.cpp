@@ -22,6 +22,8 @@ struct Totals {
     double active = 0;
     std::uint64_t bytes = 0;
     std::uint64_t bytesDense = 0;
+    std::uint64_t bytesLevels = 0;
+    std::size_t levels = 0;  ///< coarser ones that every key frame has in the file
 
     bool empty() const { return range.min > range.max; }
 };
@@ -30,6 +32,7 @@ Totals addUp(const SeriesDescription& series) {
     Totals totals;
     const glm::ivec3 dims = series.lattice.dims();
     const auto perFrame = static_cast<std::uint64_t>(dims.x) * dims.y * dims.z;
+    totals.levels = series.frames.front().levels.size();
     for (const FrameRecord& frame : series.frames) {
         totals.range.min = std::min(totals.range.min, frame.range.min);
         totals.range.max = std::max(totals.range.max, frame.range.max);
@@ -37,6 +40,8 @@ Totals addUp(const SeriesDescription& series) {
         totals.valid += static_cast<double>(frame.validSamples);
         totals.active += static_cast<double>(frame.activeVoxels);
         totals.bytes += frame.bytes;
+        totals.levels = std::min(totals.levels, frame.levels.size());
+        for (const LevelRecord& level : frame.levels) totals.bytesLevels += level.bytes;
         totals.bytesDense += perFrame * sizeof(float) * (series.lattice.heights ? 2 : 1);
     }
     return totals;
@@ -84,6 +89,8 @@ Json seriesJson(const SeriesFile& file) {
     json["active_fraction"] = totals.active / totals.samples;
     json["bytes"] = totals.bytes;
     json["bytes_dense"] = totals.bytesDense;
+    json["levels"] = totals.levels;
+    json["bytes_levels"] = totals.bytesLevels;
     json["bytes_file"] = std::filesystem::file_size(file.path());
     json["stored_error"] = series.storedError;
     json["keep"] = series.keep ? Json({series.keep->min, series.keep->max}) : Json(nullptr);
@@ -151,6 +158,11 @@ void printSeries(const SeriesFile& file) {
               << percent(totals.active / totals.samples) << " are stored one by one\n";
     std::cout << "  memory    " << formatBytes(totals.bytes) << " against " << formatBytes(totals.bytesDense)
               << " dense; file " << formatBytes(std::filesystem::file_size(file.path())) << '\n';
+    if (totals.levels > 0) {
+        std::cout << "  levels    " << totals.levels << " coarser "
+                  << (totals.levels > 1 ? "ones are" : "one is") << " in the file, "
+                  << formatBytes(totals.bytesLevels) << " when read\n";
+    }
     if (series.storedError > 0) {
         std::cout << "  error     samples differ from the source by at most "
                   << formatNumber(series.storedError) << '\n';

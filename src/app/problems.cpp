@@ -29,11 +29,14 @@ Problem fromError(const Error& error, const std::string& file) {
 /// What the checksums of its key frames say against a series.
 std::vector<Error> damagedFrames(const SeriesFile& series) {
     std::vector<Error> errors;
-    for (std::size_t i = 0; i < series.description().frames.size(); ++i) {
-        try {
-            series.read(i);
-        } catch (const Error& error) {
-            errors.push_back(error);
+    const std::vector<FrameRecord>& frames = series.description().frames;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        for (int level = 0; level <= static_cast<int>(frames[i].levels.size()); ++level) {
+            try {
+                series.readLevel(i, level);
+            } catch (const Error& error) {
+                errors.push_back(error);
+            }
         }
     }
     return errors;

@@ -59,8 +59,11 @@ void writeNarrowBandSphere(const std::filesystem::path& out, int samples, double
     series.provenance = "generated: signed distance to a sphere";
     const auto grid = makeGrid(samples, radiusVoxels, halfWidthVoxels);
     grid->setName(gridName(series, 0));
-    series.frames.push_back(describeFrame(*grid, *keyFrameOf(*grid, samples)));
-    saveSeries(series, {grid}, file, out);
+    const auto keyFrame = keyFrameOf(*grid, samples);
+    series.frames.push_back(describeFrame(*grid, *keyFrame));
+    openvdb::GridPtrVec grids = {grid};
+    series.frames.back().levels = addLevelGrids(series, 0, *keyFrame, grids);
+    saveSeries(series, grids, file, out);
 }
 
 }  // namespace isoglass

@@ -174,6 +174,22 @@ int topLevel(glm::ivec3 cells) {
     return level;
 }
 
+Lattice coarseLattice(const Lattice& lattice, int level) {
+    Lattice coarse = lattice;
+    if (level == 0) return coarse;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Axis& fine = lattice.axes[k];
+        const std::size_t cells = fine.cells();
+        const std::size_t stride = std::size_t{1} << level;
+        std::vector<double>& coordinates = coarse.axes[k].coordinates;
+        coordinates.clear();
+        for (std::size_t i = 0; i < cells; i += stride) coordinates.push_back(fine.coordinate(i));
+        coordinates.push_back(fine.coordinate(cells));
+        coarse.axes[k].period.reset();
+    }
+    return coarse;
+}
+
 Pyramid::Pyramid(const KeyFrame& base) : missing_(base) {
     glm::ivec3 cells = base.cells();
     const int top = topLevel(cells);

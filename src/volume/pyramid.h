@@ -60,4 +60,8 @@ class Pyramid {
 /// Number of the coarsest level of a lattice with so many cells.
 int topLevel(glm::ivec3 cells);
 
+/// Where the samples of `level` are, so that the level can be used alone: the axis tables at the indices of
+/// its samples. The last cell of an axis may be shorter than the others; a periodic axis is cut open.
+Lattice coarseLattice(const Lattice& lattice, int level);
+
 }  // namespace isoglass

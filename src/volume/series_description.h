@@ -19,6 +19,13 @@ struct ValueRange {
     friend bool operator==(const ValueRange&, const ValueRange&) = default;
 };
 
+/// What is known of one coarser level of a key frame (see pyramid.h) that is stored beside it.
+struct LevelRecord {
+    std::uint32_t checksum = 0;  ///< as that of the key frame
+    std::uint64_t bytes = 0;     ///< memory that the level takes once it is read alone, with its heights
+    std::optional<std::uint32_t> heightsChecksum = {};
+};
+
 /// What is known of one key frame without reading its samples.
 struct FrameRecord {
     ValueRange range;                ///< over valid samples
@@ -28,6 +35,8 @@ struct FrameRecord {
     std::uint64_t bytes = 0;         ///< memory that the key frame takes once it is read, with its heights
     /// CRC-32 of the heights as stored, where the lattice has them.
     std::optional<std::uint32_t> heightsChecksum = {};
+    /// Levels 1 to the top one where they are stored, else empty.
+    std::vector<LevelRecord> levels = {};
 };
 
 /// Everything that describes a series but its samples. Kept as metadata in the series' file.

@@ -20,6 +20,9 @@ std::string gridName(const SeriesDescription& series, std::size_t frame);
 /// Name of the grid that holds its heights, where the lattice has them.
 std::string heightsGridName(const SeriesDescription& series, std::size_t frame);
 
+/// Name of the grid that holds `level` (at least 1) of what grid `name` holds.
+std::string levelGridName(const std::string& name, int level);
+
 /// Along which axes the first sample follows the last.
 glm::bvec3 periodicAxes(const Lattice& lattice);
 

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "volume/lattice_check.h"
+#include "volume/pyramid.h"
 
 #include <nlohmann/json.hpp>
 
@@ -94,6 +95,18 @@ TimeAxis timeFromJson(const Json& json) {
     return time;
 }
 
+Json levelToJson(const LevelRecord& level) {
+    Json json = {{"crc32", level.checksum}, {"bytes", level.bytes}};
+    if (level.heightsChecksum) json["heights_crc32"] = *level.heightsChecksum;
+    return json;
+}
+
+LevelRecord levelFromJson(const Json& json) {
+    LevelRecord level{json.at("crc32"), json.at("bytes")};
+    if (json.contains("heights_crc32")) level.heightsChecksum = json["heights_crc32"].get<std::uint32_t>();
+    return level;
+}
+
 Json frameToJson(const FrameRecord& frame) {
     Json json = {{"range", rangeToJson(frame.range)},
                  {"valid", frame.validSamples},
@@ -101,6 +114,7 @@ Json frameToJson(const FrameRecord& frame) {
                  {"crc32", frame.checksum},
                  {"bytes", frame.bytes}};
     if (frame.heightsChecksum) json["heights_crc32"] = *frame.heightsChecksum;
+    for (const LevelRecord& level : frame.levels) json["levels"].push_back(levelToJson(level));
     return json;
 }
 
@@ -108,6 +122,9 @@ FrameRecord frameFromJson(const Json& json) {
     FrameRecord frame{rangeFromJson(json.at("range")), json.at("valid"), json.at("active"), json.at("crc32"),
                       json.at("bytes")};
     if (json.contains("heights_crc32")) frame.heightsChecksum = json["heights_crc32"].get<std::uint32_t>();
+    if (json.contains("levels")) {
+        for (const Json& level : json["levels"]) frame.levels.push_back(levelFromJson(level));
+    }
     return frame;
 }
 
@@ -121,11 +138,22 @@ HeightField heightsFromJson(const Json& json) {
     return heights;
 }
 
+/// Throws where levels contradict the rest.
+void checkLevels(const SeriesDescription& series) {
+    const auto all = static_cast<std::size_t>(topLevel(series.lattice.cells()));
+    for (const FrameRecord& frame : series.frames) {
+        if (!frame.levels.empty() && frame.levels.size() != all)
+            throw std::invalid_argument("a key frame has " + std::to_string(frame.levels.size()) +
+                                        " coarser levels instead of " + std::to_string(all));
+    }
+}
+
 /// Throws where heights contradict the rest.
 void checkHeights(const SeriesDescription& series) {
     const bool expected = series.lattice.heights.has_value();
+    const auto agrees = [&](const auto& record) { return record.heightsChecksum.has_value() == expected; };
     for (const FrameRecord& frame : series.frames) {
-        if (frame.heightsChecksum.has_value() != expected)
+        if (!agrees(frame) || !std::ranges::all_of(frame.levels, agrees))
             throw std::invalid_argument("key frames and lattice do not agree on heights");
     }
     if (expected && series.lattice.axes[2].period) throw std::invalid_argument("heights cannot be periodic");
@@ -149,6 +177,7 @@ SeriesDescription parse(std::string_view text) {
                                     std::to_string(series.frames.size()) + " key frames");
     }
     checkHeights(series);
+    checkLevels(series);
     series.inactiveIsMissing = json.at("inactive_is_missing");
     series.storedError = json.at("stored_error");
     if (json.contains("keep")) series.keep = rangeFromJson(json["keep"]);

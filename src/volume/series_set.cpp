@@ -66,8 +66,22 @@ struct Place {
     std::size_t frame;
 };
 
+/// Changes where a file is written to.
+struct Stamp {
+    std::uintmax_t size = 0;
+    std::filesystem::file_time_type modified;
+
+    explicit Stamp(const Path& path) {
+        std::error_code ignored;
+        size = std::filesystem::file_size(path, ignored);
+        modified = std::filesystem::last_write_time(path, ignored);
+    }
+    friend bool operator==(const Stamp&, const Stamp&) = default;
+};
+
 struct OpenedFile {
     Path path;
+    Stamp stamp;  ///< before it was checked
     SeriesDescription description;
     std::shared_ptr<const SeriesFile> kept;  ///< null where it is opened for every read
 };
@@ -112,15 +126,16 @@ std::pair<SeriesDescription, std::vector<Place>> join(const std::vector<OpenedFi
     return {std::move(whole), std::move(places)};
 }
 
-std::shared_ptr<const KeyFrame> readFrom(const OpenedFile& file, std::size_t frame) {
-    if (file.kept) return file.kept->read(frame);
-    const SeriesFile opened(file.path);
+std::shared_ptr<const KeyFrame> readFrom(const OpenedFile& file, std::size_t frame, int level) {
+    if (file.kept) return file.kept->readLevel(frame, level);
+    const bool same = Stamp(file.path) == file.stamp;
+    const SeriesFile opened(file.path, same ? SeriesFile::Check::description : SeriesFile::Check::whole);
     const std::vector<FrameRecord>& frames = opened.description().frames;
     if (frames.size() != file.description.frames.size() ||
         frames[frame].checksum != file.description.frames[frame].checksum) {
         throw Error("the file has changed since it was opened", file.path.string());
     }
-    return opened.read(frame);
+    return opened.readLevel(frame, level);
 }
 
 }  // namespace
@@ -133,6 +148,7 @@ std::shared_ptr<const SeriesFile> openSeriesSet(std::span<const Path> names) {
     if (paths.size() == 1) return std::make_shared<SeriesFile>(paths[0]);
     auto files = std::make_shared<std::vector<OpenedFile>>();
     for (const Path& path : paths) {
+        const Stamp stamp(path);
         auto opened = std::make_shared<const SeriesFile>(path);
         const SeriesDescription& description = opened->description();
         if (!files->empty()) {
@@ -143,13 +159,12 @@ std::shared_ptr<const SeriesFile> openSeriesSet(std::span<const Path> names) {
             }
         }
         const bool keep = description.frames.size() > 1;
-        files->push_back({path, description, keep ? opened : nullptr});
+        files->push_back({path, stamp, description, keep ? opened : nullptr});
     }
     auto [whole, places] = join(*files);
     return std::make_shared<SeriesFile>(
-        names[0], std::move(whole), [files, places = std::move(places)](std::size_t frame) {
-            if (frame >= places.size()) throw Error("there is no key frame " + std::to_string(frame), "");
-            return readFrom((*files)[places[frame].file], places[frame].frame);
+        names[0], std::move(whole), [files, places = std::move(places)](std::size_t frame, int level) {
+            return readFrom((*files)[places[frame].file], places[frame].frame, level);
         });
 }
 

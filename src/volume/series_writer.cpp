@@ -5,6 +5,7 @@
 #include "volume/checksum.h"
 #include "volume/heights.h"
 #include "volume/lattice_check.h"
+#include "volume/pyramid.h"
 #include "volume/series_file.h"
 #include "volume/series_grids.h"
 #include "volume/series_json.h"
@@ -93,7 +94,11 @@ void stampIdentifier(const std::filesystem::path& path, const std::filesystem::p
 void checkWritten(const std::filesystem::path& path, const std::filesystem::path& finalPath) {
     try {
         const SeriesFile file(path);
-        for (std::size_t i = 0; i < file.description().frames.size(); ++i) file.read(i);
+        const auto& frames = file.description().frames;
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+            for (int level = 0; level <= static_cast<int>(frames[i].levels.size()); ++level)
+                file.readLevel(i, level);
+        }
     } catch (const Error& failure) {
         throw Error(std::string("the file cannot be read back: ") + failure.what(), finalPath.string(),
                     "free some space on the disk, or choose another place");
@@ -114,10 +119,10 @@ std::vector<std::vector<BrickFate>> allFates(FrameSource& source, const Sparsity
 }
 
 openvdb::FloatGrid::Ptr nameGrid(openvdb::FloatGrid::Ptr grid, const std::string& name,
-                                 const SeriesDescription& series, std::size_t frame) {
+                                 const Lattice& lattice, double time) {
     grid->setName(name);
-    grid->setTransform(transformOf(series.lattice));
-    grid->insertMeta("isoglass.time", openvdb::DoubleMetadata(series.time.times[frame]));
+    grid->setTransform(transformOf(lattice));
+    grid->insertMeta("isoglass.time", openvdb::DoubleMetadata(time));
     return grid;
 }
 
@@ -133,8 +138,8 @@ class HeightsWriter {
         heights_.resize(samples.size());
         source.readHeights(frame, heights_);
         check_.add(frame, samples, heights_);
-        const auto grid =
-            nameGrid(makeSparseGrid(dims, heights_, 0), heightsGridName(series_, frame), series_, frame);
+        const auto grid = nameGrid(makeSparseGrid(dims, heights_, 0), heightsGridName(series_, frame),
+                                   series_.lattice, series_.time.times[frame]);
         grids.push_back(grid);
         return makeKeyFrame(*grid, dims, periodicAxes(series_.lattice), true);
     }
@@ -165,9 +170,40 @@ std::string heightsGridName(const SeriesDescription& series, std::size_t frame) 
     return gridName(series, frame) + ".heights";
 }
 
+std::string levelGridName(const std::string& name, int level) {
+    return name + ".level" + std::to_string(level);
+}
+
 glm::bvec3 periodicAxes(const Lattice& lattice) {
     return {lattice.axes[0].period.has_value(), lattice.axes[1].period.has_value(),
             lattice.axes[2].period.has_value()};
+}
+
+std::vector<LevelRecord> addLevelGrids(const SeriesDescription& series, std::size_t frame,
+                                       const KeyFrame& keyFrame, openvdb::GridPtrVec& grids) {
+    std::vector<LevelRecord> records;
+    for (int level = 1; level <= keyFrame.pyramid().top(); ++level) {
+        const Lattice lattice = coarseLattice(series.lattice, level);
+        // As it is read back: its tables may be smaller than those of the pyramid.
+        const auto add = [&](const KeyFrame& whole, const std::string& name,
+                             std::shared_ptr<const KeyFrame> heights) {
+            const auto grid = nameGrid(makeSparseGrid(*whole.pyramid().level(level)),
+                                       levelGridName(name, level), lattice, series.time.times[frame]);
+            grids.push_back(grid);
+            return makeKeyFrame(*grid, lattice.dims(), periodicAxes(lattice), true, std::move(heights));
+        };
+        LevelRecord record;
+        std::shared_ptr<const KeyFrame> heights;
+        if (keyFrame.heights()) {
+            heights = add(*keyFrame.heights(), heightsGridName(series, frame), nullptr);
+            record.heightsChecksum = checksum(*heights);
+        }
+        const auto coarse = add(keyFrame, gridName(series, frame), heights);
+        record.checksum = checksum(*coarse);
+        record.bytes = coarse->bytes();
+        records.push_back(record);
+    }
+    return records;
 }
 
 void saveSeries(const SeriesDescription& series, const openvdb::GridPtrVec& grids, AtomicFile& file,
@@ -203,22 +239,26 @@ SeriesDescription writeSeries(FrameSource& source, const std::filesystem::path& 
     if (series.lattice.heights) heights.emplace(series);
 
     openvdb::GridPtrVec grids;
+    openvdb::GridPtrVec levelGrids;
     const std::size_t count = series.time.times.size();
     for (std::size_t i = 0; i < count; ++i) {
         source.read(i, samples);
         const auto grid = nameGrid(makeSparseGrid(dims, samples, options.tolerance, fates[i]),
-                                   gridName(series, i), series, i);
+                                   gridName(series, i), series.lattice, series.time.times[i]);
         grids.push_back(grid);
         std::shared_ptr<const KeyFrame> heightFrame;
         if (heights) heightFrame = heights->add(source, i, samples, grids);
         const auto keyFrame =
             makeKeyFrame(*grid, dims, periodicAxes(series.lattice), series.inactiveIsMissing, heightFrame);
         series.frames.push_back(describeFrame(*grid, *keyFrame, samples));
+        if (options.levels) series.frames.back().levels = addLevelGrids(series, i, *keyFrame, levelGrids);
         if (progress) progress(i + 1, count);
     }
     if (heights) heights->finish(*series.lattice.heights);
 
-    saveSeries(series, grids, file, out);
+    // The levels together: a slow disk need not seek between them.
+    levelGrids.insert(levelGrids.end(), grids.begin(), grids.end());
+    saveSeries(series, levelGrids, file, out);
     return series;
 }
 

@@ -86,6 +86,20 @@ BuiltBrick buildBrick(glm::ivec3 dims, std::span<const float> samples, glm::ivec
     return built;
 }
 
+/// A brick with samples, of which so many along each axis are inside the domain.
+std::unique_ptr<Leaf> makeLeaf(const BrickView& brick, glm::ivec3 inside, const openvdb::Coord& origin) {
+    auto leaf = std::make_unique<Leaf>(origin, 0.0f, false);
+    const MaskWords mask = insideMask(inside);
+    for (int offset = 0; offset < kBrickSamples; ++offset) {
+        const int word = offset / 64, bit = offset % 64;
+        const bool valid = !brick.valid || brick.valid[word] >> bit & 1;
+        if (!valid || !(mask[word] >> bit & 1)) continue;
+        leaf->buffer().setValue(offset, brick.samples[offset]);
+        leaf->setValueOn(offset);
+    }
+    return leaf;
+}
+
 /// Collects samples and the brick table while it walks a tree.
 struct TableBuilder {
     static constexpr std::uint32_t kBackground = 0;
@@ -197,6 +211,23 @@ openvdb::FloatGrid::Ptr makeSparseGrid(glm::ivec3 dims, std::span<const float> s
         }
     }
     grid->tree().prune();
+    return grid;
+}
+
+openvdb::FloatGrid::Ptr makeSparseGrid(const KeyFrame& frame) {
+    auto grid = openvdb::FloatGrid::create(0.0f);
+    const glm::ivec3 bricks = frame.brickDims();
+    const std::size_t layer = static_cast<std::size_t>(bricks.x) * bricks.y;
+    for (std::size_t i = 0; i < frame.brickCount(); ++i) {
+        const BrickView& brick = frame.brick(i);
+        const glm::ivec3 base = kBrickSize * glm::ivec3(i % bricks.x, i / bricks.x % bricks.y, i / layer);
+        const openvdb::Coord origin(base.x, base.y, base.z);
+        if (brick.samples) {
+            grid->tree().addLeaf(makeLeaf(brick, frame.dims() - base, origin).release());
+        } else if (!brick.missing) {
+            grid->tree().addTile(1, origin, brick.constant, true);
+        }
+    }
     return grid;
 }
 

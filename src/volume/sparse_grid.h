@@ -22,6 +22,10 @@ namespace isoglass {
 openvdb::FloatGrid::Ptr makeSparseGrid(glm::ivec3 dims, std::span<const float> samples, double tolerance,
                                        std::span<const BrickFate> fates = {});
 
+/// Builds the tree of a key frame, without its heights: what is missing is inactive. Read back it has the
+/// same samples in the same bricks.
+openvdb::FloatGrid::Ptr makeSparseGrid(const KeyFrame& frame);
+
 /// Copies the samples of `grid` into a key frame, with `heights`. Index (0,0,0) of the tree is sample
 /// (0,0,0).
 std::shared_ptr<const KeyFrame> makeKeyFrame(const openvdb::FloatGrid& grid, glm::ivec3 dims,

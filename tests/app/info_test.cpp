@@ -53,6 +53,23 @@ TEST_F(Info, TextHoldsTheKnownFacts) {
     }
 }
 
+/// 36 x 23 x 19 samples of which the first axis closes: 36 cells, which level 3 spans with one brick.
+TEST_F(Info, StoredLevelsAreTold) {
+    const Json with = Json::parse(run({"info", "ocean.vdb", "--json"}).out).at("series").at(0);
+    EXPECT_EQ(with.at("levels"), 3);
+    EXPECT_GT(with.at("bytes_levels"), 0);
+    EXPECT_LT(with.at("bytes_levels"), with.at("bytes"));
+    EXPECT_TRUE(contains(run({"info", "ocean.vdb"}).out, "levels    3 coarser ones are in the file"));
+
+    run({"import", ISOGLASS_DATA_FOLDER "/ocean_excerpt.nc", "-o", "plain.vdb", "--variable", "TEMP",
+         "--no-levels"});
+    const Json without = Json::parse(run({"info", "plain.vdb", "--json"}).out).at("series").at(0);
+    EXPECT_EQ(without.at("levels"), 0);
+    EXPECT_EQ(without.at("bytes_levels"), 0);
+    EXPECT_LT(without.at("bytes_file"), with.at("bytes_file"));
+    EXPECT_FALSE(contains(run({"info", "plain.vdb"}).out, "levels"));
+}
+
 TEST_F(Info, SeveralSeriesAreListedInOrder) {
     std::filesystem::copy_file(folder_ / "ocean.vdb", folder_ / "copy.vdb");
     const Json series = Json::parse(run({"info", "copy.vdb", "ocean.vdb", "--json"}).out).at("series");

@@ -72,6 +72,23 @@ TEST(SeriesJson, KeyFramesMustBeAsManyAsTimes) {
     EXPECT_TRUE(contains(refusalOf(series), "3 times but 2 key frames"));
 }
 
+TEST(SeriesJson, LevelsAreAllThereOrNone) {
+    SeriesDescription series = validSeries();
+    series.lattice = makeUniformLattice({20, 3, 2}, glm::dvec3(0), glm::dvec3(1));  // two coarser levels
+    EXPECT_EQ(refusalOf(series), "accepted");
+    series.frames[1].levels = {{.checksum = 1, .bytes = 2}, {.checksum = 3, .bytes = 4}};
+    EXPECT_EQ(refusalOf(series), "accepted");
+    const SeriesDescription read = seriesFromJson(toJson(series), "series.vdb");
+    ASSERT_EQ(read.frames[1].levels.size(), 2u);
+    EXPECT_EQ(read.frames[1].levels[1].checksum, 3u);
+    EXPECT_EQ(read.frames[1].levels[1].bytes, 4u);
+    series.frames[1].levels[0].heightsChecksum = 5;
+    EXPECT_TRUE(contains(refusalOf(series), "do not agree on heights"));
+    series.frames[1].levels.resize(1);
+    series.frames[1].levels[0].heightsChecksum.reset();
+    EXPECT_TRUE(contains(refusalOf(series), "1 coarser levels instead of 2"));
+}
+
 TEST(SeriesJson, TimesMustIncrease) {
     for (const std::vector<double>& times :
          {std::vector<double>{0, 2, 1}, {0, 1, 1}, {2, 1, 0}, {}, {0, HUGE_VAL, 2}}) {
