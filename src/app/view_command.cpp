@@ -10,6 +10,8 @@ namespace isoglass {
 namespace {
 
 constexpr int kLargestSide = 16384;
+/// Longer than this a picture does not seem to follow at once.
+constexpr double kPatienceSeconds = 0.1;
 
 void check(glm::ivec2 size) {
     if (std::min(size.x, size.y) >= 1 && std::max(size.x, size.y) <= kLargestSide) return;
@@ -19,7 +21,10 @@ void check(glm::ivec2 size) {
 }  // namespace
 
 void runView(const ViewCommand& command, const CommonOptions& common) {
-    const OpenOptions options{.scene = {.memoryBytes = common.memoryBytes, .threads = common.threads},
+    const OpenOptions options{.scene = {.memoryBytes = common.memoryBytes,
+                                        .threads = common.threads,
+                                        .patienceSeconds = kPatienceSeconds,
+                                        .arrived = [] { gl::Window::wake(); }},
                               .showLevels = command.showLevels};
     const glm::ivec2 firstSize = command.size.value_or(ImageSettings().size);
     check(firstSize);

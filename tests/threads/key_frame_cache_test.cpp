@@ -222,6 +222,40 @@ TEST_F(KeyFrameCacheTest, ReadingAheadGoesOnAfterGet) {
     }
 }
 
+TEST_F(KeyFrameCacheTest, StoredLevelsAreFramesOfTheirOwn) {
+    KeyFrameCache cache(files_, std::size_t{1} << 30, KeyFrameCache::Frames::withErrors);
+    const auto level = cache.get({0, 5, 1});
+    EXPECT_EQ(level->dims(), coarseLattice(kLattice, 1).dims());
+    EXPECT_EQ(cache.bytes(), level->bytes());
+    EXPECT_EQ(level->bytes(), files_[0]->description().frames[5].levels[0].bytes);
+    EXPECT_TRUE(cache.holds({0, 5, 1}));
+    EXPECT_FALSE(cache.holds({0, 5}));
+    EXPECT_EQ(cache.get({0, 5, 1}), level);
+}
+
+TEST_F(KeyFrameCacheTest, ExpectsToWaitForWhatIsNotThereByItsSize) {
+    KeyFrameCache cache(files_, 24 * largestFrame());
+    const FrameKey small{0, kFrames - 1}, large{0, 0};
+    EXPECT_GT(cache.expectedSeconds(small), 0);
+    EXPECT_NEAR(cache.expectedSeconds(large) / cache.expectedSeconds(small),
+                static_cast<double>(bytesOf(large)) / static_cast<double>(bytesOf(small)), 1e-12);
+    EXPECT_LT(cache.expectedSeconds({0, 0, 1}), cache.expectedSeconds(large));
+    const double before = cache.expectedSeconds(large);
+    cache.get(small);
+    EXPECT_EQ(cache.expectedSeconds(small), 0);
+    EXPECT_NE(cache.expectedSeconds(large), before) << "nothing was learnt from a read";
+}
+
+TEST_F(KeyFrameCacheTest, SaysWhenAFrameWasReadAhead) {
+    std::atomic<int> calls{0};
+    KeyFrameCache cache(files_, 24 * largestFrame(), KeyFrameCache::Frames::plain, [&] { ++calls; });
+    cache.get({0, 1});
+    EXPECT_EQ(cache.arrivals(), 0u) << "whoever asks for a frame knows when it is there";
+    cache.want({{0, 1}, {0, 3}, {1, 7}});
+    EXPECT_TRUE(eventually([&] { return calls == 2; }));
+    EXPECT_EQ(cache.arrivals(), 2u);
+}
+
 TEST_F(KeyFrameCacheTest, ReadsAheadWhatIsWanted) {
     KeyFrameCache cache(files_, 24 * largestFrame());
     EXPECT_EQ(cache.bytes(), 0u);

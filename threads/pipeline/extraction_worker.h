@@ -17,6 +17,7 @@ struct FrameRequest {
     double position = 0;       ///< 0 is the timeline's `from`, 1 its `to`
     CameraPose camera;
     glm::ivec2 imageSize{0};  ///< pixels of the picture that it is for
+    Course course = {};       ///< which moments will be asked for next
 };
 
 /// A finished request: all meshes of the moment, or why there are none.

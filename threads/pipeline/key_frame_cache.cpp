@@ -5,11 +5,19 @@
 #include "volume/pyramid.h"
 
 #include <algorithm>
+#include <chrono>
 #include <string>
 
 namespace isoglass {
 
 namespace {
+
+/// Until something was read.
+constexpr double kFirstBytesPerSecond = 1e8;
+/// How much of it the newest read decides.
+constexpr double kNewestShare = 0.5;
+/// Seconds that no read is shorter than, for what divides by them.
+constexpr double kShortestRead = 1e-6;
 
 /// As `--memory` takes it, rounded up.
 std::string sizeText(std::size_t bytes) {
@@ -51,8 +59,9 @@ class KeyFrameCache::Waiting {
 };
 
 KeyFrameCache::KeyFrameCache(std::vector<std::shared_ptr<const SeriesFile>> series, std::size_t budgetBytes,
-                             Frames kept)
-    : series_(std::move(series)), budget_(budgetBytes), kept_(kept) {
+                             Frames kept, std::function<void()> arrived)
+    : series_(std::move(series)), budget_(budgetBytes), kept_(kept), arrived_(std::move(arrived)) {
+    bytesPerSecond_.fill(kFirstBytesPerSecond);
     for (const auto& file : series_) {
         const std::size_t needed = 2 * largestFrame(*file, kept_);
         if (needed > budget_) {
@@ -95,6 +104,19 @@ void KeyFrameCache::want(std::vector<FrameKey> keys) {
     changed_.notify_all();
 }
 
+double KeyFrameCache::expectedSeconds(FrameKey key) const {
+    const std::scoped_lock lock(mutex_);
+    if (frames_.contains(key)) return 0;
+    // A small level says more of how long a disk takes to begin than of how much it brings.
+    const double rate = key.level > 0 ? std::max(bytesPerSecond_[0], bytesPerSecond_[1]) : bytesPerSecond_[0];
+    return static_cast<double>(expectedBytes(key)) / rate;
+}
+
+std::uint64_t KeyFrameCache::arrivals() const {
+    const std::scoped_lock lock(mutex_);
+    return arrivals_;
+}
+
 std::size_t KeyFrameCache::bytes() const {
     const std::scoped_lock lock(mutex_);
     return cachedBytes_ + readingBytes_;
@@ -106,7 +128,9 @@ bool KeyFrameCache::holds(FrameKey key) const {
 }
 
 std::size_t KeyFrameCache::expectedBytes(FrameKey key) const {
-    return bytesOf(*series_[key.series], key.frame, kept_);
+    const SeriesFile& series = *series_[key.series];
+    if (key.level > 0) return series.description().frames[key.frame].levels[key.level - 1].bytes;
+    return bytesOf(series, key.frame, kept_);
 }
 
 /// Drops frames that nobody holds until `bytes` more fit: first those that nobody wants, then the ones
@@ -137,20 +161,32 @@ std::shared_ptr<const KeyFrame> KeyFrameCache::read(Lock& lock, FrameKey key) {
     std::shared_ptr<const KeyFrame> frame;
     std::exception_ptr failure;
     lock.unlock();
+    const auto begin = std::chrono::steady_clock::now();
     try {
-        frame = series_[key.series]->read(key.frame);
-        if (kept_ == Frames::withLevels) frame->pyramid();
-        if (kept_ == Frames::withErrors) frame->detailError();
+        frame = readFile(key);
     } catch (...) {
         failure = std::current_exception();
     }
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
     lock.lock();
     reading_.erase(key);
     readingBytes_ -= bytes;
     changed_.notify_all();
     if (failure) std::rethrow_exception(failure);
+    double& rate = bytesPerSecond_[key.level > 0];
+    const double newest = static_cast<double>(bytes) / std::max(taken.count(), kShortestRead);
+    rate += kNewestShare * (newest - rate);
     cachedBytes_ += bytes;
     frames_[key] = frame;
+    return frame;
+}
+
+std::shared_ptr<const KeyFrame> KeyFrameCache::readFile(FrameKey key) const {
+    const SeriesFile& series = *series_[key.series];
+    if (key.level > 0) return series.readLevel(key.frame, key.level);
+    auto frame = series.read(key.frame);
+    if (kept_ == Frames::withLevels) frame->pyramid();
+    if (kept_ == Frames::withErrors) frame->detailError();
     return frame;
 }
 
@@ -177,6 +213,11 @@ void KeyFrameCache::prefetch(std::stop_token stop) {
         }
         try {
             read(lock, *key);
+            ++arrivals_;
+            if (!arrived_) continue;
+            lock.unlock();
+            arrived_();
+            lock.lock();
         } catch (const std::exception&) {
             // `get` reads it again and reports to the one who needs it.
             failed_.insert(*key);

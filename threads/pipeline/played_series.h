@@ -26,4 +26,8 @@ void checkGrid(const Volume& volume, const SeriesDescription& series);
 PlayedSeries playSeries(const Volume& volume, const Timeline& timeline,
                         std::shared_ptr<const SeriesFile> file);
 
+/// The nearest position beyond `position` (by 1e-9 at least) at which the series has a key frame: after it,
+/// or before it where not `forwards`. The end of the timeline, 1 or 0, where none comes before that.
+double keyPositionBeyond(const PlayedSeries& played, double position, bool forwards);
+
 }  // namespace isoglass

@@ -4,6 +4,7 @@
 #include "surface/level_values.h"
 #include "surface/motion.h"
 #include "surface/vertex_values.h"
+#include "volume/pyramid.h"
 
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
@@ -16,8 +17,11 @@ namespace isoglass {
 
 namespace {
 
-/// Steps into which what is left of the timeline is cut to find the key frames ahead.
-constexpr int kLookAheadSteps = 64;
+/// Intervals between key frames that are looked ahead.
+constexpr int kMostAhead = 64;
+/// Along its longest axis, a level that is shown in place of key frames has at least so many cells: a coarser
+/// one tells nothing.
+constexpr int kFewestCells = 32;
 
 /// The planes that cut a volume, in its own coordinates.
 std::vector<CutPlane> cutPlanes(const Scene& scene, const Volume& volume) {
@@ -44,9 +48,10 @@ TimeSample sampleOf(const PlayedSeries& played, double position) {
 
 }  // namespace
 
-SceneExtractor::SceneExtractor(const Scene& scene, Options options) : scene_(scene), options_(options) {
+SceneExtractor::SceneExtractor(const Scene& scene, Options options)
+    : scene_(scene), options_(std::move(options)) {
     for (const Volume& volume : scene_.volumes) {
-        const auto file = openSeries(volume);
+        const auto file = options_.open(volume);
         checkGrid(volume, file->description());
         series_.push_back(playSeries(volume, scene_.time, file));
     }
@@ -59,12 +64,12 @@ SceneExtractor::SceneExtractor(const Scene& scene, Options options) : scene_(sce
             source.name = volume.name;
             source.series = color->series;
             source.time = volume.time;
-            colorSeries_.push_back({v, s, playSeries(source, scene_.time, openSeries(source))});
+            colorSeries_.push_back({v, s, playSeries(source, scene_.time, options_.open(source))});
         }
     }
     using enum KeyFrameCache::Frames;
     const auto frames = scene_.quality.errorPixels ? withErrors : scene_.quality.pixels ? withLevels : plain;
-    cache_ = std::make_unique<KeyFrameCache>(files(), options_.memoryBytes, frames);
+    cache_ = std::make_unique<KeyFrameCache>(files(), options_.memoryBytes, frames, options_.arrived);
 }
 
 std::vector<PlannedWork> SceneExtractor::planAt(std::size_t volume, const TimeSample& sample) const {
@@ -78,38 +83,95 @@ std::vector<PlannedWork> SceneExtractor::planAt(std::size_t volume, const TimeSa
     return planVolume(state);
 }
 
-TimedField SceneExtractor::fieldAt(std::size_t series, const TimeSample& sample, bool first, bool second) {
-    TimedField field;
-    if (first) field.a = cache_->get({series, sample.frameA});
-    if (second) field.b = cache_->get({series, sample.frameB});
-    field.fraction = static_cast<float>(sample.fraction);
-    return field;
+SceneExtractor::Moment SceneExtractor::momentAt(std::size_t series, const TimeSample& sample, bool first,
+                                                bool second) {
+    std::vector<std::size_t> frames;
+    if (first) frames.push_back(sample.frameA);
+    if (second) frames.push_back(sample.frameB);
+    Moment moment;
+    moment.level = levelNow(series, frames);
+    moment.lattice = coarseLattice(played(series).file->description().lattice, moment.level);
+    if (first) moment.field.a = cache_->get({series, sample.frameA, moment.level});
+    if (second) moment.field.b = cache_->get({series, sample.frameB, moment.level});
+    moment.field.fraction = static_cast<float>(sample.fraction);
+    return moment;
 }
 
-std::vector<FrameKey> SceneExtractor::framesAhead(double position) const {
+/// The level of all these frames that can be had in time.
+int SceneExtractor::levelNow(std::size_t series, const std::vector<std::size_t>& frames) const {
+    if (!options_.patienceSeconds) return 0;
+    const SeriesDescription& description = played(series).file->description();
+    const glm::ivec3 cells = description.lattice.cells();
+    int coarsest = 0;
+    while (std::max({cells.x, cells.y, cells.z}) >> (coarsest + 1) >= kFewestCells) ++coarsest;
+    for (const std::size_t frame : frames)
+        coarsest = std::min(coarsest, static_cast<int>(description.frames[frame].levels.size()));
+    for (int level = 0; level < coarsest; ++level) {
+        double seconds = 0;
+        for (const std::size_t frame : frames) seconds += cache_->expectedSeconds({series, frame, level});
+        if (seconds <= *options_.patienceSeconds) return level;
+    }
+    return coarsest;
+}
+
+const PlayedSeries& SceneExtractor::played(std::size_t series) const {
+    return series < series_.size() ? series_[series] : colorSeries_[series - series_.size()].played;
+}
+
+/// The key frames that the scene needs at one moment.
+std::vector<FrameKey> SceneExtractor::framesAt(double position) const {
     std::vector<FrameKey> keys;
-    const auto add = [&keys](FrameKey key) {
-        if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+    std::vector<std::vector<PlannedWork>> works;
+    for (std::size_t volume = 0; volume < series_.size(); ++volume) {
+        const TimeSample sample = sampleOf(series_[volume], position);
+        works.push_back(planAt(volume, sample));
+        if (isNeeded(works.back(), WorkKind::firstKeyFrame)) keys.push_back({volume, sample.frameA});
+        if (isNeeded(works.back(), WorkKind::secondKeyFrame)) keys.push_back({volume, sample.frameB});
+    }
+    for (std::size_t i = 0; i < colorSeries_.size(); ++i) {
+        const ColorSeries& color = colorSeries_[i];
+        if (!isNeeded(works[color.volume], WorkKind::extraction, color.surface)) continue;
+        const TimeSample sample = sampleOf(color.played, position);
+        keys.push_back({series_.size() + i, sample.frameA});
+        if (sample.fraction > 0) keys.push_back({series_.size() + i, sample.frameB});
+    }
+    return keys;
+}
+
+/// Of any series.
+double SceneExtractor::keyPositionBeyond(double position, bool forwards) const {
+    double nearest = forwards ? 1 : 0;
+    for (std::size_t i = 0; i < series_.size() + colorSeries_.size(); ++i) {
+        const double found = isoglass::keyPositionBeyond(played(i), position, forwards);
+        nearest = forwards ? std::min(nearest, found) : std::max(nearest, found);
+    }
+    return nearest;
+}
+
+/// In the order in which they will be needed.
+std::vector<FrameKey> SceneExtractor::framesAhead(double position, Course course) const {
+    std::vector<FrameKey> keys;
+    const auto add = [&](double at) {
+        for (const FrameKey key : framesAt(at)) {
+            if (std::ranges::find(keys, key) == keys.end()) keys.push_back(key);
+        }
     };
-    for (int step = 0; step <= kLookAheadSteps; ++step) {
-        const double at = position + (1 - position) * step / kLookAheadSteps;
-        const auto addBoth = [&](std::size_t series, const TimeSample& sample, bool first, bool second) {
-            if (first) add({series, sample.frameA});
-            if (second) add({series, sample.frameB});
-        };
-        std::vector<std::vector<PlannedWork>> works;
-        for (std::size_t volume = 0; volume < series_.size(); ++volume) {
-            const TimeSample sample = sampleOf(series_[volume], at);
-            works.push_back(planAt(volume, sample));
-            addBoth(volume, sample, isNeeded(works.back(), WorkKind::firstKeyFrame),
-                    isNeeded(works.back(), WorkKind::secondKeyFrame));
+    add(position);
+    const double end = course.forwards ? 1 : 0;
+    double at = position;
+    bool looped = !course.loops;
+    for (int i = 0; i < kMostAhead; ++i) {
+        if (at == end) {
+            add(end);
+            if (looped) break;
+            looped = true;
+            at = 1 - end;
+            add(at);
         }
-        for (std::size_t i = 0; i < colorSeries_.size(); ++i) {
-            const ColorSeries& color = colorSeries_[i];
-            if (!isNeeded(works[color.volume], WorkKind::extraction, color.surface)) continue;
-            const TimeSample sample = sampleOf(color.played, at);
-            addBoth(series_.size() + i, sample, true, sample.fraction > 0);
-        }
+        const double next = keyPositionBeyond(at, course.forwards);
+        // In the middle of an interval both its ends are needed.
+        add((at + next) / 2);
+        at = next;
     }
     return keys;
 }
@@ -133,26 +195,28 @@ View SceneExtractor::viewOf(const Volume& volume, const CameraPose& camera, glm:
 }
 
 std::vector<float> SceneExtractor::colorValues(const SurfaceMesh& mesh, const ExtractedSurface& place,
-                                               const TimedField& field, const ExtractOptions& options,
-                                               double position) {
+                                               const Moment& moment, const ExtractOptions& options,
+                                               double position, int& substitute) {
     switch (scene_.volumes[place.volume].surfaces[place.surface].fieldColor->by) {
         case FieldColor::By::curvature:
             return meanCurvature(mesh);
         case FieldColor::By::value:
-            return sampleAtVertices(mesh, series_[place.volume].file->description().lattice, field,
-                                    options_.threads);
-        case FieldColor::By::level:
-            return levelAtVertices(mesh, series_[place.volume].file->description().lattice, field, options);
+            return sampleAtVertices(mesh, moment.lattice, moment.field, options_.threads);
+        case FieldColor::By::level: {
+            std::vector<float> levels = levelAtVertices(mesh, moment.lattice, moment.field, options);
+            for (float& level : levels) level += static_cast<float>(moment.level);
+            return levels;
+        }
         case FieldColor::By::series:
             break;
     }
     std::size_t index = 0;
     while (colorSeries_[index].volume != place.volume || colorSeries_[index].surface != place.surface)
         ++index;
-    const PlayedSeries& source = colorSeries_[index].played;
-    const TimeSample sample = sampleOf(source, position);
-    const TimedField values = fieldAt(series_.size() + index, sample, true, sample.fraction > 0);
-    return sampleAtVertices(mesh, source.file->description().lattice, values, options_.threads);
+    const TimeSample sample = sampleOf(colorSeries_[index].played, position);
+    const Moment values = momentAt(series_.size() + index, sample, true, sample.fraction > 0);
+    substitute = std::max(substitute, values.level);
+    return sampleAtVertices(mesh, values.lattice, values.field, options_.threads);
 }
 
 std::vector<std::shared_ptr<const SeriesFile>> SceneExtractor::files() const {
@@ -162,8 +226,9 @@ std::vector<std::shared_ptr<const SeriesFile>> SceneExtractor::files() const {
     return all;
 }
 
-SceneMeshes SceneExtractor::extract(double position, const CameraPose& camera, glm::ivec2 imageSize) {
-    cache_->want(framesAhead(position));
+SceneMeshes SceneExtractor::extract(double position, const CameraPose& camera, glm::ivec2 imageSize,
+                                    Course course) {
+    cache_->want(framesAhead(position, course));
     SceneMeshes result;
     for (std::size_t v = 0; v < scene_.volumes.size(); ++v) {
         const SeriesDescription& series = series_[v].file->description();
@@ -183,12 +248,15 @@ SceneMeshes SceneExtractor::extract(double position, const CameraPose& camera, g
     return result;
 }
 
-void SceneExtractor::addSurfaces(std::size_t v, double position, const View& view, SceneMeshes& result) {
+void SceneExtractor::addSurfaces(std::size_t v, double position, View view, SceneMeshes& result) {
     const Volume& volume = scene_.volumes[v];
-    const Lattice& lattice = series_[v].file->description().lattice;
     const std::vector<PlannedWork>& work = result.work[v];
-    const TimedField field = fieldAt(v, result.times[v], isNeeded(work, WorkKind::firstKeyFrame),
-                                     isNeeded(work, WorkKind::secondKeyFrame));
+    const Moment moment = momentAt(v, result.times[v], isNeeded(work, WorkKind::firstKeyFrame),
+                                   isNeeded(work, WorkKind::secondKeyFrame));
+    const auto& [field, lattice, level] = moment;
+    int& substitute = result.substitutes.emplace_back(level);
+    // It is coarse as it is.
+    if (level > 0) view.cellPixels = view.errorPixels = 0;
     for (std::size_t s = 0; s < volume.surfaces.size(); ++s) {
         const Surface& surface = volume.surfaces[s];
         if (!isNeeded(work, WorkKind::extraction, s)) {
@@ -199,7 +267,8 @@ void SceneExtractor::addSurfaces(std::size_t v, double position, const View& vie
         Extraction extraction = extractSurface(lattice, field, options);
         const auto add = [&](SurfaceMesh mesh, const ExtractStats& stats, bool caps) {
             ExtractedSurface extracted{v, s, nullptr, stats, caps};
-            if (surface.fieldColor) mesh.colorValues = colorValues(mesh, extracted, field, options, position);
+            if (surface.fieldColor)
+                mesh.colorValues = colorValues(mesh, extracted, moment, options, position, substitute);
             extracted.mesh = std::make_shared<const SurfaceMesh>(std::move(mesh));
             result.surfaces.push_back(std::move(extracted));
         };

@@ -8,6 +8,7 @@
 #include "surface/extract.h"
 #include "volume/time_axis.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -17,6 +18,14 @@
 #include <vector>
 
 namespace isoglass {
+
+/// How the moments follow each other, for what is read ahead.
+struct Course {
+    bool forwards = true;
+    bool loops = false;  ///< from the end of the timeline to its beginning, or back
+
+    friend bool operator==(const Course&, const Course&) = default;
+};
 
 /// One surface of the scene at one moment.
 struct ExtractedSurface {
@@ -39,6 +48,12 @@ struct SceneMeshes {
     std::vector<double> motionLimits;            ///< one a volume, likewise; see motion.h
     std::vector<double> axisTimes;               ///< one a volume, in its series' own units
     std::vector<std::vector<PlannedWork>> work;  ///< one a volume: what was done for it, and why
+    /// One a volume: the stored level that was taken in place of its key frames, or of those that colour it,
+    /// because they are not there yet; 0 where all is as the scene wants it.
+    std::vector<int> substitutes;
+
+    /// The coarsest of them.
+    int substitute() const { return substitutes.empty() ? 0 : std::ranges::max(substitutes); }
 };
 
 /// Turns moments of a scene into meshes: reads, interpolates in time, extracts.
@@ -54,6 +69,15 @@ class SceneExtractor {
         std::optional<double> seenMargin = {};
         /// Gives meshes velocities, so that they can be shown at times that are not theirs.
         bool motion = false;
+        /// Key frames that take longer than so many seconds to read are not waited for: a stored level that
+        /// takes less is shown in their place, or the coarsest of use, until they are there. Without it every
+        /// moment is as the scene wants it.
+        std::optional<double> patienceSeconds = {};
+        /// Key frames came that may have been missed: the moment is worth another call. Runs on the reading
+        /// thread; see KeyFrameCache.
+        std::function<void()> arrived = {};
+        /// How the series of a volume, or of a colour, is opened.
+        std::function<std::shared_ptr<const SeriesFile>(const Volume&)> open = openSeries;
     };
 
     /// Opens every series of the scene. Throws Error where one cannot be read, is not the grid that the
@@ -61,8 +85,8 @@ class SceneExtractor {
     SceneExtractor(const Scene& scene, Options options);
 
     /// All surfaces at `position` (0 is the timeline's `from`, 1 its `to`), for a picture seen from
-    /// `camera` of `imageSize` pixels. Key frames ahead are read while this works.
-    SceneMeshes extract(double position, const CameraPose& camera, glm::ivec2 imageSize);
+    /// `camera` of `imageSize` pixels. Key frames ahead in the `course` are read while this works.
+    SceneMeshes extract(double position, const CameraPose& camera, glm::ivec2 imageSize, Course course = {});
 
     /// Moves the scene's planes (world coordinates) for the calls of `extract` that follow.
     void setClip(std::vector<ClipPlane> planes) { scene_.clip = std::move(planes); }
@@ -81,13 +105,26 @@ class SceneExtractor {
         PlayedSeries played;
     };
 
-    /// `series` numbers those of the volumes, then those that colour.
-    TimedField fieldAt(std::size_t series, const TimeSample& sample, bool first, bool second);
+    /// What is known of one series at one moment, and where its samples are.
+    struct Moment {
+        TimedField field;
+        Lattice lattice;
+        int level = 0;  ///< the stored one that stands for the key frames
+    };
+
+    /// `series` numbers those of the volumes, then those that colour. Frames that are not needed are left
+    /// out.
+    Moment momentAt(std::size_t series, const TimeSample& sample, bool first, bool second);
+    const PlayedSeries& played(std::size_t series) const;
+    int levelNow(std::size_t series, const std::vector<std::size_t>& frames) const;
     std::vector<PlannedWork> planAt(std::size_t volume, const TimeSample& sample) const;
     std::vector<float> colorValues(const SurfaceMesh& mesh, const ExtractedSurface& place,
-                                   const TimedField& field, const ExtractOptions& options, double position);
-    std::vector<FrameKey> framesAhead(double position) const;
-    void addSurfaces(std::size_t volume, double position, const View& view, SceneMeshes& result);
+                                   const Moment& moment, const ExtractOptions& options, double position,
+                                   int& substitute);
+    std::vector<FrameKey> framesAhead(double position, Course course) const;
+    std::vector<FrameKey> framesAt(double position) const;
+    double keyPositionBeyond(double position, bool forwards) const;
+    void addSurfaces(std::size_t volume, double position, View view, SceneMeshes& result);
     ExtractOptions optionsFor(const Volume& volume, const Surface& surface, const View& view) const;
     View viewOf(const Volume& volume, const CameraPose& camera, glm::ivec2 imageSize) const;
 

@@ -26,6 +26,7 @@ std::string_view viewerHelp() {
            "right drag         move (also middle drag, shift + left drag)\n"
            "wheel              zoom towards the cursor\n"
            "space              play or pause\n"
+           "b                  play backwards or pause\n"
            "left, right        the key frame before or after\n"
            "shift + left/right the displayed frame before or after\n"
            "Home               the scene's own camera again\n"
@@ -78,6 +79,11 @@ ViewerWish ViewerControls::type(char32_t character, double now) {
         case U' ':
             playhead_.playing() ? playhead_.pause(now) : playhead_.play(now);
             return {};
+        case U'b': {
+            const bool running = playhead_.playing() && !playhead_.forwards();
+            running ? playhead_.pause(now) : playhead_.play(now, false);
+            return {};
+        }
         case U'w':
             wireframe_ = !wireframe_;
             return {};

@@ -14,9 +14,11 @@ constexpr double kSamePosition = 1e-9;
 
 }  // namespace
 
-void Playhead::play(double now) {
-    if (playing_ || !canPlay()) return;
+void Playhead::play(double now, bool forwards) {
+    if (!canPlay() || (playing_ && forwards_ == forwards)) return;
+    pause(now);
     playing_ = true;
+    forwards_ = forwards;
     since_ = now;
 }
 
@@ -31,19 +33,26 @@ void Playhead::moveTo(double position) {
 }
 
 double Playhead::framesRun(double now) const {
-    return position_ * static_cast<double>(timeline_.frameCount()) + (now - since_) * timeline_.fps;
+    const double run = (now - since_) * timeline_.fps;
+    return position_ * static_cast<double>(timeline_.frameCount()) + (forwards_ ? run : -run);
+}
+
+double Playhead::frameShown(double now) const {
+    const double run = framesRun(now);
+    return forwards_ ? std::floor(run + kRounding) : std::ceil(run - kRounding);
 }
 
 double Playhead::position(double now) const {
     if (!playing_) return position_;
-    const auto frame = static_cast<std::int64_t>(std::floor(framesRun(now) + kRounding));
-    return timeline_.position(frame % timeline_.frameCount());
+    const std::int64_t frames = timeline_.frameCount();
+    const auto frame = static_cast<std::int64_t>(frameShown(now));
+    return timeline_.position((frame % frames + frames) % frames);
 }
 
 double Playhead::secondsToNextFrame(double now) const {
     if (!playing_) return std::numeric_limits<double>::infinity();
-    const double run = framesRun(now);
-    return (std::floor(run + kRounding) + 1 - run) / timeline_.fps;
+    const double shown = frameShown(now);
+    return std::abs(shown + (forwards_ ? 1 : -1) - framesRun(now)) / timeline_.fps;
 }
 
 double Playhead::framesOn(double now, std::int64_t count) const {

@@ -7,8 +7,8 @@
 
 namespace isoglass {
 
-/// Where in the timeline the viewer is: still, or running with the clock and from the end back to the
-/// beginning.
+/// Where in the timeline the viewer is: still, or running with the clock, forwards and from the end back to
+/// the beginning, or the other way round.
 ///
 /// Positions go from 0, the timeline's `from`, to 1, its `to`. `now` is seconds of any steady clock. While
 /// it runs the position is that of a displayed frame, so that what is shown are the frames of the video.
@@ -19,7 +19,9 @@ class Playhead {
     bool playing() const { return playing_; }
     /// False where the timeline is a still: then `play` does nothing.
     bool canPlay() const { return timeline_.frameCount() > 1; }
-    void play(double now);
+    void play(double now, bool forwards = true);
+    /// How it runs, or ran.
+    bool forwards() const { return forwards_; }
     /// Stays at the displayed frame.
     void pause(double now);
     /// Pauses there.
@@ -36,11 +38,14 @@ class Playhead {
 
   private:
     double lengthSeconds() const { return static_cast<double>(timeline_.frameCount()) / timeline_.fps; }
-    /// Displayed frames since playback began at the timeline's beginning, with fraction.
+    /// Displayed frames from the timeline's beginning, with fraction; may be before it or beyond its end.
     double framesRun(double now) const;
+    /// Number of the displayed frame, likewise.
+    double frameShown(double now) const;
 
     Timeline timeline_;
     bool playing_ = false;
+    bool forwards_ = true;
     double position_ = 0;  ///< where it stands, or stood when it began to play
     double since_ = 0;     ///< when it began to play
 };

@@ -19,6 +19,7 @@ struct Viewer::Session {
     std::optional<OutputOrder> postedOrder;
     OutputOrder order;
     std::optional<FrameRequest> requested;
+    std::uint64_t arrivedBefore = 0;  ///< key frames that were read ahead before that request
     ExtractionWorker worker;
     RenderLoop loop;
 
@@ -28,7 +29,8 @@ struct Viewer::Session {
           output(window, inbox, screenshots, opened.name),
           worker(
               [this](const FrameRequest& request) {
-                  return opened.extractor->extract(request.position, request.camera, request.imageSize);
+                  return opened.extractor->extract(request.position, request.camera, request.imageSize,
+                                                   request.course);
               },
               inbox.meshes),
           loop(opened.scene, Pace::newest, inbox, output.hooks()) {}
@@ -49,6 +51,15 @@ Viewer::Viewer(gl::Window& window, Opened opened, const OpenOptions& options)
 
 Viewer::~Viewer() {
     window_.hide();
+}
+
+/// Says that something else is shown meanwhile, and why.
+std::string Viewer::substituteNotice(const Session& session) {
+    if (session.shown.substitute == 0) return {};
+    const std::string what = "coarser level " + std::to_string(session.shown.substitute);
+    return session.controls.playhead().playing()
+               ? "key frames come more slowly than they are played: shown at " + what
+               : what + " is shown until the key frames are read";
 }
 
 double Viewer::now() const {
@@ -157,6 +168,7 @@ void Viewer::publish() {
     }
     text_.help = controls.help() ? viewerHelp() : "";
     session_->order.text = text_;
+    if (text_.notice.empty()) session_->order.text.notice = substituteNotice(*session_);
     if (session_->postedOrder != session_->order) session_->output.post(session_->order);
     session_->postedOrder = session_->order;
     if (std::string text = title(); text != title_) {
@@ -166,19 +178,24 @@ void Viewer::publish() {
 }
 
 void Viewer::requestMeshes(double moment, const RenderView& view) {
-    const FrameRequest wanted{.number = session_->requested ? session_->requested->number + 1 : 0,
+    const FrameRequest wanted{.number = session_->requested ? session_->requested->number + 1 : 1,
                               .position = session_->controls.playhead().position(moment),
                               .camera = view.camera,
-                              .imageSize = view.size};
+                              .imageSize = view.size,
+                              .course = {session_->controls.playhead().forwards(), /*loops=*/true}};
+    const std::uint64_t arrived = session_->opened.extractor->cache().arrivals();
     if (const auto& last = session_->requested) {
         const bool sameView = last->camera == wanted.camera && last->imageSize == wanted.imageSize;
+        // Where something else is shown meanwhile, what came may be what is missing.
+        const bool mayImprove = session_->shown.substitute > 0 && arrived != session_->arrivedBefore;
         // Meshes of full resolution look the same from everywhere.
-        if (last->position == wanted.position &&
+        if (last->position == wanted.position && !mayImprove &&
             (sameView || !session_->opened.scene.quality.wantsDetail())) {
             return;
         }
     }
     session_->requested = wanted;
+    session_->arrivedBefore = arrived;
     session_->worker.request(wanted);
 }
 

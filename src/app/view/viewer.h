@@ -35,6 +35,7 @@ class Viewer {
     struct Session;
     using OpenResult = std::variant<Opened, std::string>;
 
+    static std::string substituteNotice(const Session& session);
     double now() const;
     void show(Opened opened);
     void handle(const gl::WindowEvent& event);

@@ -61,13 +61,19 @@ bool WindowOutput::present(const ShownFrame& shown, Renderer& renderer) {
     target_->overlay.draw(order_.text, size);
     saveIfDue(renderer);
     target_->window.show();
-    shown_.post({shown.meshes ? shown.meshes->meshes.axisTimes : std::vector<double>{}, failure_});
+    ShownMoment moment{.axisTimes = {}, .failure = failure_};
+    if (shown.meshes) {
+        moment.axisTimes = shown.meshes->meshes.axisTimes;
+        moment.substitute = shown.meshes->meshes.substitute();
+    }
+    shown_.post(std::move(moment));
     gl::Window::wake();
     return true;
 }
 
 void WindowOutput::answer(const FrameMeshes& meshes, std::string failure) {
-    answered_ = meshes.request.number;
+    // Another request for the same moment follows a substitute.
+    if (order_.screenshotRequest == 0 || meshes.meshes.substitute() == 0) answered_ = meshes.request.number;
     failure_ = std::move(failure);
 }
 

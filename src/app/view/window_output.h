@@ -19,7 +19,8 @@ namespace isoglass {
 struct OutputOrder {
     OverlayText text;
     std::uint64_t screenshots = 0;  ///< how many were asked for since the beginning
-    /// The picture to save is the first one after this request, or a later one, was answered.
+    /// The picture to save is the first one after this request, or a later one, was answered with meshes that
+    /// are as the scene wants them; 0: the first one.
     std::uint64_t screenshotRequest = 0;
 
     friend bool operator==(const OutputOrder&, const OutputOrder&) = default;
@@ -29,6 +30,7 @@ struct OutputOrder {
 struct ShownMoment {
     std::vector<double> axisTimes;  ///< one a volume, in its series' own units; empty before the first mesh
     std::string failure;            ///< why the newest meshes are missing; empty where they are not
+    int substitute = 0;             ///< the coarsest level that stands for key frames that are not there yet
 };
 
 /// The render thread's side of the viewer: puts each drawn frame into the window, with the overlay over it,

@@ -142,6 +142,20 @@ TEST_F(ControlsTest, SpacePlaysAndPausesAndASteppingPauses) {
     EXPECT_EQ(position(), 0.5);
 }
 
+TEST_F(ControlsTest, BPlaysBackwardsAndPauses) {
+    send(CharacterTyped{U' '});
+    now_ = 1.01;
+    send(CharacterTyped{U'b'});
+    EXPECT_TRUE(controls_.playhead().playing());
+    EXPECT_FALSE(controls_.playhead().forwards());
+    now_ = 1.51;
+    const double there = position();
+    EXPECT_LT(there, 0.25);
+    send(CharacterTyped{U'b'});
+    EXPECT_FALSE(controls_.playhead().playing());
+    EXPECT_EQ(position(), there);
+}
+
 TEST_F(ControlsTest, LettersSwitchAndAsk) {
     send(CharacterTyped{U'w'});
     EXPECT_TRUE(controls_.wireframe());

@@ -36,6 +36,33 @@ TEST(Playhead, RunsFromTheEndToTheBeginning) {
     EXPECT_EQ(head.position(9.01), 0.25);
 }
 
+TEST(Playhead, RunsBackwardsFromTheBeginningToTheEnd) {
+    Playhead head(kFourSeconds);
+    head.moveTo(0.5);
+    head.play(100, false);
+    EXPECT_TRUE(head.playing());
+    EXPECT_FALSE(head.forwards());
+    for (int frame = 0; frame < 100; ++frame) {
+        const double begin = 100 + frame / kFps;
+        const double wanted = ((150 - frame) % 100) / 100.0;
+        EXPECT_EQ(head.position(begin), wanted) << frame;
+        EXPECT_EQ(head.position(begin + 0.9 / kFps), wanted) << frame;
+        // Sums of times near 100 s are off by less than 1e-13 s.
+        EXPECT_NEAR(head.secondsToNextFrame(begin + 0.3 / kFps), 0.7 / kFps, 1e-12) << frame;
+    }
+}
+
+TEST(Playhead, TurnsRoundWhereItIs) {
+    Playhead head(kFourSeconds);
+    head.play(0);
+    head.play(1.01, false);
+    EXPECT_EQ(head.position(1.01), 0.25);
+    EXPECT_EQ(head.position(2.021), 0);
+    head.play(1.61, true);
+    EXPECT_EQ(head.position(1.61), 0.1);
+    EXPECT_EQ(head.position(1.651), 0.11);
+}
+
 TEST(Playhead, ALateClockSkipsFrames) {
     Playhead head(kFourSeconds);
     head.play(0);
