@@ -34,6 +34,9 @@ MeasuredPlan measure(const Scene& scene, const SceneMeshes& meshes) {
     for (std::size_t i = 0; i < frame.draws.size(); ++i) {
         frame.draws[i].mesh = renderer.meshes().upload(*meshes.surfaces[i].mesh);
     }
+    LayerUploads layers;
+    layers.replace(meshes.layers, renderer.volumes());
+    frame.layerDraw = layers.draw(scene, 0);
     renderer.render(frame);
     renderer.setTiming(true);
     renderer.render(frame);

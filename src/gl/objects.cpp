@@ -72,6 +72,19 @@ Texture::Texture(GLenum format, glm::ivec2 size, int layers)
     glTextureParameteri(name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
+Texture3D::Texture3D(GLenum format, glm::ivec3 size, GLint filter)
+    : Handle(make([](GLuint* name) { glCreateTextures(GL_TEXTURE_3D, 1, name); })), size_(size) {
+    glTextureStorage3D(name(), 1, format, size.x, size.y, size.z);
+    glTextureParameteri(name(), GL_TEXTURE_MIN_FILTER, filter);
+    glTextureParameteri(name(), GL_TEXTURE_MAG_FILTER, filter);
+    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+        glTextureParameteri(name(), axis, GL_CLAMP_TO_EDGE);
+}
+
+void Texture3D::write(GLenum channels, std::span<const float> texels) const {
+    glTextureSubImage3D(name(), 0, 0, 0, 0, size_.x, size_.y, size_.z, channels, GL_FLOAT, texels.data());
+}
+
 Framebuffer::Framebuffer(std::span<const Texture* const> colors, const Texture* depth,
                          const std::string& label, glm::ivec2 size)
     : Handle(make([](GLuint* name) { glCreateFramebuffers(1, name); })) {

@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <cstddef>
 #include <span>
@@ -71,6 +72,20 @@ class Texture : public Handle<destroyTexture> {
   private:
     glm::ivec2 size_;
     int layers_;
+};
+
+/// A 3D texture without mipmaps, clamped at its sides. `format` is a sized internal format of floats,
+/// `filter` GL_NEAREST or GL_LINEAR.
+class Texture3D : public Handle<destroyTexture> {
+  public:
+    Texture3D(GLenum format, glm::ivec3 size, GLint filter);
+
+    /// All texels, x fastest; `channels` is GL_RED, GL_RG, ...
+    void write(GLenum channels, std::span<const float> texels) const;
+    glm::ivec3 size() const { return size_; }
+
+  private:
+    glm::ivec3 size_;
 };
 
 /// Textures to draw into: fragment output i goes to colors[i].

@@ -23,6 +23,7 @@ void setBlend(GLuint target, Blend blend) {
     if (blend == Blend::replace) return glDisablei(GL_BLEND, target);
     glEnablei(GL_BLEND, target);
     if (blend == Blend::add) return glBlendFunci(target, GL_ONE, GL_ONE);
+    if (blend == Blend::cover) return glBlendFunci(target, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     const GLenum source = blend == Blend::under ? GL_DST_ALPHA : GL_ONE;
     const GLenum destination = blend == Blend::over ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE;
     glBlendFuncSeparatei(target, source, destination, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);

@@ -17,6 +17,7 @@ enum class Blend {
     emitAndDim,  ///< RGB: target + output; alpha: target * (1 - output's alpha). Commutes.
     over,        ///< RGB: output + target * (1 - output's alpha); alpha as in emitAndDim
     under,       ///< RGB: target + target's alpha * output; alpha as in emitAndDim
+    cover,       ///< RGB as in over; alpha: output + target * (1 - output), coverage
 };
 
 /// The fixed-function state that a pass declares.

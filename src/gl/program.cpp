@@ -69,7 +69,7 @@ GLint property(GLuint program, GLenum interface, GLuint index, GLenum what) {
 }
 
 bool isSampler(GLenum type) {
-    return type == GL_SAMPLER_2D || type == GL_UNSIGNED_INT_SAMPLER_2D ||
+    return type == GL_SAMPLER_2D || type == GL_SAMPLER_3D || type == GL_UNSIGNED_INT_SAMPLER_2D ||
            type == GL_UNSIGNED_INT_SAMPLER_2D_ARRAY;
 }
 

@@ -14,9 +14,9 @@ using enum PassKind;
 using Method = TransparencyMethod;
 
 constexpr std::array<std::string_view, kPassKindCount> kNames{
-    "opaque",       "back-face depth", "blending",    "attenuation and emission",
-    "integer sums", "peeled layer",    "layer blend", "fragment lists",
-    "resolve",      "accumulation",    "presentation"};
+    "opaque",       "layers",       "back-face depth", "blending",       "attenuation and emission",
+    "integer sums", "peeled layer", "layer blend",     "fragment lists", "resolve",
+    "accumulation", "presentation"};
 
 std::pair<Method, std::string> chooseMethod(const PlanInput& input) {
     if (input.method != Method::automatic) return {input.method, "the scene asks for it"};
@@ -84,6 +84,7 @@ void planSamples(FramePlan& plan, const PlanInput& input) {
 std::string whyNot(PassKind kind, const FramePlan& plan, const PlanInput& input) {
     if (input.unchanged) return "nothing has changed since the last frame";
     if (kind == opaque) return "no opaque surface is visible, and the background needs no drawing";
+    if (kind == layers) return "no volume is shown in layers";
     if (kind == resolve) return "the linear image comes first";
     if (kind == accumulation || kind == presentation) {
         return "one picture is enough, and nobody asks for the linear image";
@@ -120,6 +121,12 @@ FramePlan planFrame(const PlanInput& input) {
     plan.reproducible = input.reproducible;
     if (!input.unchanged) {
         if (input.opaqueSurfaces > 0) add(plan, opaque, "opaque surfaces are visible");
+        if (input.layerStyle) {
+            add(plan, layers,
+                input.betweenKeyFrames
+                    ? "rays count the layers of an iso-surface in the samples of two key frames"
+                    : "rays count the layers of an iso-surface in the samples of one key frame");
+        }
         if (input.semiTransparentSurfaces > 0) planComposition(plan, input);
         planSamples(plan, input);
     }

@@ -11,6 +11,7 @@ namespace isoglass {
 /// The passes a frame can have. Each runs for all surfaces of all volumes before the next one begins.
 enum class PassKind {
     opaque,                  ///< background and opaque surfaces: color and the depth that stays
+    layers,                  ///< an iso-surface's layers by rays through the samples, over what is opaque
     backFaceDepth,           ///< nearest of opaque depth and semi-transparent back faces
     blending,                ///< semi-transparent fragments over each other in the order of the draws
     attenuationAndEmission,  ///< product of (1 - opacity) and sum of opacity * color in one walk
@@ -22,7 +23,7 @@ enum class PassKind {
     accumulation,            ///< the same without exposure and sRGB, added to the linear image
     presentation,            ///< linear image to exposure and sRGB
 };
-inline constexpr int kPassKindCount = 11;
+inline constexpr int kPassKindCount = 12;
 
 /// The name that people read, e.g. "back-face depth".
 std::string_view passName(PassKind kind);
@@ -31,6 +32,8 @@ std::string_view passName(PassKind kind);
 struct PlanInput {
     int opaqueSurfaces = 0;           ///< visible ones
     int semiTransparentSurfaces = 0;  ///< visible ones: opacity above 0 and below 1
+    bool layerStyle = false;          ///< a volume is shown in layers
+    bool betweenKeyFrames = false;    ///< and its time lies between two key frames
     TransparencyMethod method = TransparencyMethod::automatic;
     int layers = 4;             ///< of the method peel, at least 1
     bool reproducible = false;  ///< the same bits for any order of draws and triangles

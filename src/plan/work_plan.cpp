@@ -7,7 +7,9 @@ namespace {
 
 PlannedWork planExtraction(const VolumeState& volume, std::size_t surface) {
     PlannedWork work{WorkKind::extraction, surface, false, ""};
-    if (volume.clippedAway) {
+    if (volume.layered && surface == 0) {
+        work.reason = "its layers are found in the samples";
+    } else if (volume.clippedAway) {
         work.reason = "a clip plane takes the whole volume away";
     } else if (!(volume.surfaceOpacities[surface] > 0)) {
         work.reason = "its opacity is 0";
@@ -16,6 +18,12 @@ PlannedWork planExtraction(const VolumeState& volume, std::size_t surface) {
         work.reason = "the surface is visible";
     }
     return work;
+}
+
+PlannedWork planSamples(const VolumeState& volume) {
+    if (!volume.layered) return {WorkKind::samples, 0, false, "no ray goes through the volume"};
+    if (volume.clippedAway) return {WorkKind::samples, 0, false, "a clip plane takes the whole volume away"};
+    return {WorkKind::samples, 0, true, "rays look for layers in them"};
 }
 
 }  // namespace
@@ -28,25 +36,28 @@ std::string_view workName(WorkKind kind) {
             return "second key frame";
         case WorkKind::extraction:
             return "extraction";
+        case WorkKind::samples:
+            return "samples";
     }
     return {};
 }
 
 std::vector<PlannedWork> planVolume(const VolumeState& volume) {
-    std::vector<PlannedWork> extractions;
+    std::vector<PlannedWork> uses;
     for (std::size_t i = 0; i < volume.surfaceOpacities.size(); ++i) {
-        extractions.push_back(planExtraction(volume, i));
+        uses.push_back(planExtraction(volume, i));
     }
-    const bool any = std::ranges::any_of(extractions, &PlannedWork::needed);
-    const std::string nothing = "nothing of the volume is extracted";
+    uses.push_back(planSamples(volume));
+    const bool any = std::ranges::any_of(uses, &PlannedWork::needed);
+    const std::string nothing = "nothing of the volume is shown";
     std::vector<PlannedWork> plan;
-    plan.push_back({WorkKind::firstKeyFrame, 0, any, any ? "surfaces are extracted from it" : nothing});
+    plan.push_back({WorkKind::firstKeyFrame, 0, any, any ? "what is shown comes from it" : nothing});
     const bool second = any && !volume.onKeyFrame;
     plan.push_back({WorkKind::secondKeyFrame, 0, second,
                     second ? "the time lies between two key frames"
                     : any  ? "the time is that of a key frame"
                            : nothing});
-    plan.insert(plan.end(), extractions.begin(), extractions.end());
+    plan.insert(plan.end(), uses.begin(), uses.end());
     return plan;
 }
 

@@ -11,6 +11,7 @@ enum class WorkKind {
     firstKeyFrame,   ///< the key frame at or before the frame's time is read
     secondKeyFrame,  ///< the one behind it as well, for interpolation in time
     extraction,      ///< a surface is extracted
+    samples,         ///< dense samples are made, for rays through them
 };
 
 std::string_view workName(WorkKind kind);
@@ -20,6 +21,7 @@ struct VolumeState {
     bool onKeyFrame = false;                ///< the frame's time is that of a key frame
     bool clippedAway = false;               ///< its whole box is on the far side of a clip plane
     std::vector<float> surfaceOpacities{};  ///< 0 and below is invisible
+    bool layered = false;                   ///< the first surface is shown in layers, through the samples
 };
 
 struct PlannedWork {
@@ -29,7 +31,8 @@ struct PlannedWork {
     std::string reason;  ///< why it is done, or why not; a clause without a full stop
 };
 
-/// Both key frames, then every surface. Pure. Nothing is read of which nothing is extracted.
+/// Both key frames, then every surface, then the samples. Pure. Nothing is read of which nothing is
+/// extracted.
 std::vector<PlannedWork> planVolume(const VolumeState& volume);
 
 /// Whether `plan` has work of that kind to do, for that surface.

@@ -37,8 +37,8 @@ std::vector<const SurfaceDraw*> visibleDraws(const FrameDescription& frame, cons
     return visible;
 }
 
-glm::dmat4 clipFromEyeFor(const FrameDescription& frame, const std::vector<const SurfaceDraw*>& visible,
-                          const MeshStore& meshes) {
+double nearDistanceFor(const FrameDescription& frame, const std::vector<const SurfaceDraw*>& visible,
+                       const MeshStore& meshes) {
     std::optional<Bounds> drawn;
     for (const SurfaceDraw* draw : visible) {
         const Bounds bounds = draw->boundsSeries ? transformed(draw->worldFromSeries, *draw->boundsSeries)
@@ -49,7 +49,7 @@ glm::dmat4 clipFromEyeFor(const FrameDescription& frame, const std::vector<const
             drawn = bounds;
         }
     }
-    return clipFromEye(frame.camera, nearDistance(frame.camera, drawn));
+    return nearDistance(frame.camera, drawn);
 }
 
 void setShell(const PreparedShell& prepared, float gradientScale, DrawUniforms& uniforms) {
@@ -91,8 +91,10 @@ DrawRecorder::DrawRecorder(gl::StateCache& state)
       uniformStride_(uniformStride()),
       frameUniforms_(gl::Buffer::updatable(sizeof(FrameUniforms))) {}
 
-void DrawRecorder::prepare(const FrameDescription& frame, const MeshStore& meshes) {
+void DrawRecorder::prepare(const FrameDescription& frame, const MeshStore& meshes,
+                           const VolumeStore& volumes) {
     frame_ = frame;
+    volume_.prepare(frame.layerDraw, volumes);
     meshes_ = &meshes;
     visible_ = visibleDraws(frame_, meshes);
     opaque_.clear();
@@ -112,13 +114,15 @@ bool DrawRecorder::overlapImpossible() const {
 }
 
 void DrawRecorder::upload(glm::dvec2 shiftPixels, int subframes) {
-    glm::dmat4 fromEye = clipFromEyeFor(frame_, visible_, *meshes_);
+    const double near = nearDistanceFor(frame_, visible_, *meshes_);
+    glm::dmat4 fromEye = clipFromEye(frame_.camera, near);
     // What a sample sees moves against the sample; a pixel is 2/size wide in clip space.
     const glm::dvec2 shift = -2.0 * shiftPixels / glm::dvec2(frame_.camera.size);
     for (int column = 0; column < 4; ++column) {
         fromEye[column].x += shift.x * fromEye[column].w;
         fromEye[column].y += shift.y * fromEye[column].w;
     }
+    volume_.upload(frame_.camera, shift, near);
     std::vector<std::byte> bytes(visible_.size() * uniformStride_);
     for (std::size_t i = 0; i < visible_.size(); ++i) {
         const SurfaceDraw& draw = *visible_[i];
@@ -183,6 +187,11 @@ void DrawRecorder::draw(const std::vector<PreparedDraw>& draws) {
 void DrawRecorder::drawFullScreen() {
     glBindVertexArray(noVertices_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void DrawRecorder::drawVolume() {
+    volume_.bind();
+    drawFullScreen();
 }
 
 }  // namespace isoglass

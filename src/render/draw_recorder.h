@@ -3,6 +3,7 @@
 #include "gl/objects.h"
 #include "gl/pipeline_state.h"
 #include "render/frame_description.h"
+#include "render/volume_recorder.h"
 
 #include <map>
 #include <optional>
@@ -16,8 +17,9 @@ class DrawRecorder {
     /// `state` is the cache through which all state goes; it must outlive the recorder.
     explicit DrawRecorder(gl::StateCache& state);
 
-    /// Takes the visible surfaces of `frame`. Meshes are held by reference until the next `prepare`.
-    void prepare(const FrameDescription& frame, const MeshStore& meshes);
+    /// Takes the visible surfaces of `frame`, and its volume. Both are held by reference until the next
+    /// `prepare`.
+    void prepare(const FrameDescription& frame, const MeshStore& meshes, const VolumeStore& volumes);
 
     /// Uploads what the passes need, with the samples of all pixels moved by `shiftPixels` (x to the right,
     /// y upwards), for one of `subframes` pictures of which the average is shown.
@@ -34,6 +36,9 @@ class DrawRecorder {
     void drawOpaque() { draw(opaque_); }
     void drawSemiTransparent() { draw(semiTransparent_); }
     void drawFullScreen();
+    /// One ray a pixel through the frame's volume.
+    void drawVolume();
+    VolumeVariant volumeVariant() const { return volume_.variant(); }
 
   private:
     struct PreparedDraw {
@@ -58,6 +63,7 @@ class DrawRecorder {
     gl::VertexArray noVertices_;
     FrameDescription frame_;
     const MeshStore* meshes_ = nullptr;
+    VolumeRecorder volume_;
     std::vector<const SurfaceDraw*> visible_;  ///< of frame_
     std::vector<PreparedDraw> opaque_;
     std::vector<PreparedDraw> semiTransparent_;

@@ -2,6 +2,7 @@
 
 #include "optics/shell_transmittance.h"
 #include "render/camera.h"
+#include "render/layer_draw.h"
 #include "render/legend.h"
 #include "render/mesh_store.h"
 #include "scene/scene.h"
@@ -47,6 +48,7 @@ struct SurfaceDraw {
 struct FrameDescription {
     CameraView camera;
     std::vector<SurfaceDraw> draws{};
+    std::optional<LayerDraw> layerDraw{};  ///< an iso-surface in layers, over what is opaque
     LinearColor background{0};
     /// Below 1 the picture has alpha: that of the background, and what surfaces cover of it.
     float backgroundOpacity = 1;

@@ -34,6 +34,8 @@ class Declarer {
         switch (planned.kind) {
             case PassKind::opaque:
                 return opaque(planned);
+            case PassKind::layers:
+                return layers(planned);
             case PassKind::backFaceDepth:
                 return backFaceDepth(planned);
             case PassKind::blending:
@@ -83,6 +85,19 @@ class Declarer {
         pass.depth = DepthUse{.target = Target::opaqueDepth, .clear = true};
         pass.state = {.depthTest = DepthTest::greater, .depthWrite = true};
         pass.record = [](DrawRecorder& recorder) { recorder.drawOpaque(); };
+        return pass;
+    }
+
+    /// Over the opaque color, or over the background in its place.
+    PassDeclaration layers(const PlannedPass& planned) const {
+        PassDeclaration pass = fullScreen(planned, "layers.frag");
+        pass.writes = {{Target::opaqueColor, hasOpaque_ ? Begin::keep : Begin::fillBackground}};
+        pass.state.blend[0] = Blend::cover;
+        if (hasOpaque_) {
+            pass.reads = {Target::opaqueDepth};
+            pass.defines = {"OPAQUE_IN_FRONT"};
+        }
+        pass.record = [](DrawRecorder& recorder) { recorder.drawVolume(); };
         return pass;
     }
 
@@ -173,7 +188,7 @@ class Declarer {
         const auto [shader, front] = whatIsInFront();
         PassDeclaration pass = fullScreen(planned, shader);
         if (front) pass.reads.push_back(*front);
-        if (hasOpaque_) {
+        if (hasOpaque_ || plan_.runs(PassKind::layers)) {
             pass.reads.push_back(Target::opaqueColor);
             pass.defines.push_back("OPAQUE_BEHIND");
         }
@@ -221,6 +236,14 @@ std::vector<PassDeclaration> declarePasses(const FramePlan& plan, int subframe) 
         passes.push_back(declarer.declare(planned));
     }
     return passes;
+}
+
+void specialize(std::span<PassDeclaration> passes, const VolumeVariant& variant) {
+    for (PassDeclaration& pass : passes) {
+        if (pass.planned.kind != PassKind::layers) continue;
+        pass.defines.insert(pass.defines.end(), variant.defines.begin(), variant.defines.end());
+        pass.volumeUnits = variant.units;
+    }
 }
 
 void drawWireframe(std::span<PassDeclaration> passes) {

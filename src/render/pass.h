@@ -2,6 +2,7 @@
 
 #include "gl/pipeline_state.h"
 #include "plan/frame_plan.h"
+#include "render/volume_recorder.h"
 
 #include <functional>
 #include <optional>
@@ -66,6 +67,7 @@ struct PassDeclaration {
     /// An integer target, filled with 0, that shaders change by atomic operations at image unit 0.
     std::optional<Target> image{};
     std::optional<DepthUse> depth{};
+    std::vector<int> volumeUnits{};  ///< texture units of a volume's samples
     gl::PipelineState state{};
     std::function<void(DrawRecorder&)> record;  ///< called once, inside the pass
 
@@ -76,6 +78,9 @@ struct PassDeclaration {
 /// The declarations of a plan's passes, in its order, for one of the plan's subframes: the first one
 /// begins the linear image, the presentation comes with the last one.
 std::vector<PassDeclaration> declarePasses(const FramePlan& plan, int subframe = 0);
+
+/// Makes the passes that cast rays through a volume do so as it needs.
+void specialize(std::span<PassDeclaration> passes, const VolumeVariant& variant);
 
 /// Makes every pass over the surfaces draw their triangles' edges; those over the whole image stay.
 void drawWireframe(std::span<PassDeclaration> passes);

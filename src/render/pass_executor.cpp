@@ -93,6 +93,7 @@ void checkInterface(const PassDeclaration& pass, const gl::Program& program) {
     std::vector<int> units;
     for (const Target target : pass.reads) units.push_back(static_cast<int>(target));
     std::sort(units.begin(), units.end());
+    units.insert(units.end(), pass.volumeUnits.begin(), pass.volumeUnits.end());
     std::vector<int> outputs(pass.writes.size());
     std::iota(outputs.begin(), outputs.end(), 0);
     check(program.samplerUnits(), units, "read other textures");

@@ -58,13 +58,15 @@ void check(const FrameDescription& frame) {
 }  // namespace
 
 Renderer::Renderer(gl::Context& context)
-    : context_(context), meshes_(context), recorder_(state_), executor_(context, state_) {}
+    : context_(context), meshes_(context), volumes_(context), recorder_(state_), executor_(context, state_) {}
 
 FramePlan Renderer::planOf(const FrameDescription& frame) {
     check(frame);
-    recorder_.prepare(frame, meshes_);
+    recorder_.prepare(frame, meshes_, volumes_);
     return planFrame({.opaqueSurfaces = recorder_.opaqueCount(),
                       .semiTransparentSurfaces = recorder_.semiTransparentCount(),
+                      .layerStyle = frame.layerDraw.has_value(),
+                      .betweenKeyFrames = frame.layerDraw && frame.layerDraw->fraction > 0,
                       .method = frame.method,
                       .layers = frame.layers,
                       .reproducible = frame.reproducible,
@@ -84,7 +86,7 @@ void Renderer::render(const FrameDescription& frame, const FramePlan& plan) {
     shown_.reset();
     plan_ = plan;
     targets_.resize(frame.camera.size, plan_.supersample);
-    recorder_.prepare(frame, meshes_);
+    recorder_.prepare(frame, meshes_, volumes_);
     const PassExecutor::Frame parts{
         .targets = targets_,
         .recorder = recorder_,
@@ -93,6 +95,7 @@ void Renderer::render(const FrameDescription& frame, const FramePlan& plan) {
     for (int i = 0; i < plan_.subframes; ++i) {
         recorder_.upload(samplePosition(i, plan_.subframes) / double(plan_.supersample), plan_.subframes);
         std::vector<PassDeclaration> passes = declarePasses(plan_, i);
+        specialize(passes, recorder_.volumeVariant());
         if (frame.wireframe) drawWireframe(passes);
         executor_.run(passes, parts);
     }

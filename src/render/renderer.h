@@ -23,6 +23,7 @@ class Renderer {
     explicit Renderer(gl::Context& context);
 
     MeshStore& meshes() { return meshes_; }
+    VolumeStore& volumes() { return volumes_; }
 
     /// Plans and draws. The image depends on `frame` and its meshes alone. Throws Error for a camera, a
     /// size or a number of samples or layers that cannot be drawn and for anything that OpenGL complains
@@ -68,6 +69,7 @@ class Renderer {
     gl::Context& context_;
     gl::StateCache state_;
     MeshStore meshes_;
+    VolumeStore volumes_;
     RenderTargets targets_;
     DrawRecorder recorder_;
     PassExecutor executor_;

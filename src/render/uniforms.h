@@ -54,4 +54,33 @@ struct ColorMapUniforms {
     std::array<glm::vec4, 256> colors;  ///< linear; the fourth component is padding
 };
 
+/// Uniform block `Volume` of shaders/lib/volume.glsl, std140.
+struct VolumeUniforms {
+    static constexpr unsigned kBinding = 3;
+
+    glm::vec4 eye;
+    glm::vec4 forward;
+    glm::vec4 right;
+    glm::vec4 up;
+    glm::vec4 boxLow;
+    glm::vec4 boxHigh;
+    glm::vec4 indexPerUnit;
+    std::array<glm::vec4, 3> worldFromLocal;   ///< columns; the fourth component is padding
+    std::array<glm::vec4, 3> normalFromLocal;  ///< likewise
+    std::array<glm::vec4, 16> planes;
+    glm::ivec4 samples;
+    glm::vec2 shift;
+    float fraction;
+    float iso;
+    float stepCells;
+    float nearDistance;
+    int planeCount;
+    int layersWanted;
+    std::array<glm::vec4, 16> layerColors;
+    int show;
+    float silhouette;
+    int firstLayer;
+    float padding[1] = {};
+};
+
 }  // namespace isoglass

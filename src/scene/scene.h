@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/field_color.h"
+#include "scene/layer_style.h"
 #include "scene/shell_opacity.h"
 
 #include <glm/mat4x4.hpp>
@@ -198,7 +199,8 @@ struct Scene {
     Lighting lighting;
     Quality quality;
     Transparency transparency;
-    std::vector<ClipPlane> clip;  ///< of all volumes, in world coordinates
+    std::optional<LayerStyle> layers{};  ///< the style "layers": its volume exists
+    std::vector<ClipPlane> clip;         ///< of all volumes, in world coordinates
     /// Keys that were understood but change nothing in this version, a sentence each.
     std::vector<std::string> notes;
 

@@ -9,6 +9,7 @@
 #include "scene/json_node.h"
 #include "scene/opacity_json.h"
 #include "scene/scene_format.h"
+#include "scene/style_json.h"
 #include "scene/transparency.h"
 
 #include <glm/geometric.hpp>
@@ -249,7 +250,7 @@ void readQuality(const JsonNode& node, Scene& scene) {
 }
 
 void refuseUnavailable(const JsonNode& root) {
-    for (const Word key : {Word("terrain"), Word("ocean"), Word("sky"), Word("style")}) {
+    for (const Word key : {Word("terrain"), Word("ocean"), Word("sky")}) {
         if (const auto node = root.find(key)) {
             node->failUnavailable(inQuotes(key), "remove it: volumes are what a scene can show");
         }
@@ -275,6 +276,7 @@ Scene readScene(const JsonNode& root, const std::filesystem::path& baseFolder) {
     if (const auto clip = root.find("clip")) scene.clip = readClip(*clip);
     if (const auto detail = root.find("detail")) readDetail(*detail, scene);
     if (const auto quality = root.find("quality")) readQuality(*quality, scene);
+    if (const auto style = root.find("style")) readStyle(*style, scene);
     return scene;
 }
 

@@ -35,6 +35,9 @@ constexpr std::array kTransparency{Key("method"), Key("layers"), Key("reproducib
 constexpr std::array kDetail{Key("pixels"), Key("error_pixels")};
 constexpr std::array kQuality{Key("frame_ms"), Key("exact_order")};
 
+constexpr std::array kStyle{Key("kind"),   Key("volume"),    Key("show"), Key("count"),     Key("first"),
+                            Key("colors"), Key("opacities"), Key("step"), Key("silhouette")};
+
 constexpr std::array kFormat{
     FormatObject{"", kScene},
     FormatObject{"/volumes/*", kVolume},
@@ -53,6 +56,7 @@ constexpr std::array kFormat{
     FormatObject{"/detail", kDetail},
     FormatObject{"/quality", kQuality},
     FormatObject{"/clip/*", kClip},
+    FormatObject{"/style", kStyle},
 };
 
 std::size_t editDistance(std::string_view a, std::string_view b) {

@@ -3,6 +3,7 @@
 #include "scene/color_json.h"
 #include "scene/opacity_json.h"
 #include "scene/scene_file.h"
+#include "scene/style_json.h"
 #include "scene/transparency.h"
 
 #include <glm/vec2.hpp>
@@ -98,6 +99,7 @@ std::string toJson(const Scene& scene, const std::filesystem::path& baseFolder) 
     if (quality.errorPixels) json["detail"]["error_pixels"] = *quality.errorPixels;
     if (quality.frameMilliseconds) json["quality"]["frame_ms"] = *quality.frameMilliseconds;
     json["quality"]["exact_order"] = quality.exactOrder;
+    if (scene.layers) json["style"] = styleJson(*scene.layers);
     return json.dump(2) + "\n";
 }
 

@@ -67,6 +67,7 @@ void RenderLoop::replaceMeshes(Renderer& renderer, FrameMeshes meshes) {
     for (std::size_t i = 0; i < draws.size(); ++i) {
         draws[i].mesh = renderer.meshes().upload(*meshes.meshes.surfaces[i].mesh);
     }
+    layers_.replace(meshes.meshes.layers, renderer.volumes());
     for (const SurfaceDraw& old : draws_) renderer.meshes().release(old.mesh);
     draws_ = std::move(draws);
     shown_ = std::move(meshes);
@@ -75,8 +76,18 @@ void RenderLoop::replaceMeshes(Renderer& renderer, FrameMeshes meshes) {
 FrameDescription RenderLoop::describe(const RenderView& view) const {
     FrameDescription frame = describeFrame(scene_, view);
     frame.draws = draws_;
+    if (shown_) frame.layerDraw = layers_.draw(scene_, layerMotion(view));
     if (view.position && shown_) move(*view.position, frame.draws);
     return frame;
+}
+
+/// By how much the fraction between the key frames of what is shown in layers has grown since its moment.
+double RenderLoop::layerMotion(const RenderView& view) const {
+    const SceneMeshes& meshes = shown_->meshes;
+    if (!view.position || !meshes.layers || meshes.fractionsPerPosition.empty()) return 0;
+    const std::size_t volume = meshes.layers->volume;
+    return motionWithin(meshes.times[volume].fraction,
+                        (*view.position - shown_->request.position) * meshes.fractionsPerPosition[volume]);
 }
 
 /// To the displayed position, from that of the meshes.

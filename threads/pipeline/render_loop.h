@@ -90,6 +90,7 @@ class RenderLoop {
     bool takeMeshes(Renderer& renderer);
     void replaceMeshes(Renderer& renderer, FrameMeshes meshes);
     FrameDescription describe(const RenderView& view) const;
+    double layerMotion(const RenderView& view) const;
     void move(double position, std::vector<SurfaceDraw>& draws) const;
 
     const Scene scene_;
@@ -98,6 +99,7 @@ class RenderLoop {
     const Hooks hooks_;
     std::optional<FrameMeshes> shown_;
     std::vector<SurfaceDraw> draws_;
+    LayerUploads layers_;
     std::exception_ptr failure_;
     std::jthread thread_;  ///< last member: it uses all the others
 };

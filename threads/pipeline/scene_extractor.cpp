@@ -1,5 +1,6 @@
 #include "pipeline/scene_extractor.h"
 
+#include "base/error.h"
 #include "render/camera.h"
 #include "surface/level_values.h"
 #include "surface/motion.h"
@@ -42,6 +43,30 @@ bool isCutOff(const std::array<glm::dvec3, 2>& box, const std::vector<CutPlane>&
     });
 }
 
+/// The finest level that rays can take. Throws where the series cannot be shown in layers.
+int finestLayerLevel(const SeriesFile& series) {
+    const SeriesDescription& description = series.description();
+    const Lattice& lattice = description.lattice;
+    const glm::ivec3 cells = lattice.cells();
+    if (lattice.heights) {
+        throw Error("the style \"layers\" needs even levels, but this series has heights",
+                    series.path().string(), "import it without --height, or remove \"style\"");
+    }
+    if (std::min({cells.x, cells.y, cells.z}) < 1) {
+        throw Error("the style \"layers\" needs at least two samples along each axis", series.path().string(),
+                    "remove \"style\"");
+    }
+    const int level = LayerSamples::levelFor(lattice);
+    for (const FrameRecord& frame : description.frames) {
+        if (static_cast<int>(frame.levels.size()) >= level) continue;
+        throw Error(
+            "the series is too large to be shown in layers at full resolution, and coarser levels "
+            "are not stored",
+            series.path().string(), "import it again without --no-levels");
+    }
+    return level;
+}
+
 TimeSample sampleOf(const PlayedSeries& played, double position) {
     return locate(played.file->description().time, played.timeAt(position));
 }
@@ -67,6 +92,8 @@ SceneExtractor::SceneExtractor(const Scene& scene, Options options)
             colorSeries_.push_back({v, s, playSeries(source, scene_.time, options_.open(source))});
         }
     }
+    layered_ = layeredVolume(scene_);
+    if (layered_) finestInLayers_ = finestLayerLevel(*series_[*layered_].file);
     using enum KeyFrameCache::Frames;
     const auto frames = scene_.quality.errorPixels ? withErrors : scene_.quality.pixels ? withLevels : plain;
     cache_ = std::make_unique<KeyFrameCache>(files(), options_.memoryBytes, frames, options_.arrived);
@@ -77,6 +104,7 @@ std::vector<PlannedWork> SceneExtractor::planAt(std::size_t volume, const TimeSa
     state.onKeyFrame = sample.fraction == 0;
     state.clippedAway = isCutOff(series_[volume].file->description().lattice.bounds(),
                                  cutPlanes(scene_, scene_.volumes[volume]));
+    state.layered = layered_ == volume;
     for (const Surface& surface : scene_.volumes[volume].surfaces) {
         state.surfaceOpacities.push_back(surface.shell ? 1.0f : surface.opacity);
     }
@@ -84,12 +112,12 @@ std::vector<PlannedWork> SceneExtractor::planAt(std::size_t volume, const TimeSa
 }
 
 SceneExtractor::Moment SceneExtractor::momentAt(std::size_t series, const TimeSample& sample, bool first,
-                                                bool second) {
+                                                bool second, int finest) {
     std::vector<std::size_t> frames;
     if (first) frames.push_back(sample.frameA);
     if (second) frames.push_back(sample.frameB);
     Moment moment;
-    moment.level = levelNow(series, frames);
+    moment.level = levelNow(series, frames, finest);
     moment.lattice = coarseLattice(played(series).file->description().lattice, moment.level);
     if (first) moment.field.a = cache_->get({series, sample.frameA, moment.level});
     if (second) moment.field.b = cache_->get({series, sample.frameB, moment.level});
@@ -98,20 +126,20 @@ SceneExtractor::Moment SceneExtractor::momentAt(std::size_t series, const TimeSa
 }
 
 /// The level of all these frames that can be had in time.
-int SceneExtractor::levelNow(std::size_t series, const std::vector<std::size_t>& frames) const {
-    if (!options_.patienceSeconds) return 0;
+int SceneExtractor::levelNow(std::size_t series, const std::vector<std::size_t>& frames, int finest) const {
+    if (!options_.patienceSeconds) return finest;
     const SeriesDescription& description = played(series).file->description();
     const glm::ivec3 cells = description.lattice.cells();
     int coarsest = 0;
     while (std::max({cells.x, cells.y, cells.z}) >> (coarsest + 1) >= kFewestCells) ++coarsest;
     for (const std::size_t frame : frames)
         coarsest = std::min(coarsest, static_cast<int>(description.frames[frame].levels.size()));
-    for (int level = 0; level < coarsest; ++level) {
+    for (int level = finest; level < coarsest; ++level) {
         double seconds = 0;
         for (const std::size_t frame : frames) seconds += cache_->expectedSeconds({series, frame, level});
         if (seconds <= *options_.patienceSeconds) return level;
     }
-    return coarsest;
+    return std::max(coarsest, finest);
 }
 
 const PlayedSeries& SceneExtractor::played(std::size_t series) const {
@@ -125,8 +153,17 @@ std::vector<FrameKey> SceneExtractor::framesAt(double position) const {
     for (std::size_t volume = 0; volume < series_.size(); ++volume) {
         const TimeSample sample = sampleOf(series_[volume], position);
         works.push_back(planAt(volume, sample));
-        if (isNeeded(works.back(), WorkKind::firstKeyFrame)) keys.push_back({volume, sample.frameA});
-        if (isNeeded(works.back(), WorkKind::secondKeyFrame)) keys.push_back({volume, sample.frameB});
+        const auto addBoth = [&](int level) {
+            if (isNeeded(works.back(), WorkKind::firstKeyFrame))
+                keys.push_back({volume, sample.frameA, level});
+            if (isNeeded(works.back(), WorkKind::secondKeyFrame))
+                keys.push_back({volume, sample.frameB, level});
+        };
+        const bool surfaces = std::ranges::any_of(works.back(), [](const PlannedWork& work) {
+            return work.kind == WorkKind::extraction && work.needed;
+        });
+        if (surfaces) addBoth(0);
+        if (isNeeded(works.back(), WorkKind::samples)) addBoth(finestInLayers_);
     }
     for (std::size_t i = 0; i < colorSeries_.size(); ++i) {
         const ColorSeries& color = colorSeries_[i];
@@ -244,8 +281,28 @@ SceneMeshes SceneExtractor::extract(double position, const CameraPose& camera, g
             result.motionLimits.push_back(motionLimit(series.lattice));
         }
         addSurfaces(v, position, viewOf(scene_.volumes[v], camera, imageSize), result);
+        if (isNeeded(result.work.back(), WorkKind::samples)) addLayers(v, result);
     }
     return result;
+}
+
+void SceneExtractor::addLayers(std::size_t volume, SceneMeshes& result) {
+    const TimeSample& sample = result.times[volume];
+    const bool second = isNeeded(result.work[volume], WorkKind::secondKeyFrame);
+    const Moment moment = momentAt(volume, sample, true, second, finestInLayers_);
+    const auto samplesOf = [&](std::size_t frame, const std::shared_ptr<const KeyFrame>& key) {
+        return layerSamples_.of({volume, frame, moment.level}, *key, options_.threads);
+    };
+    SceneLayers layers;
+    layers.volume = volume;
+    layers.axes = sampleAxes(moment.lattice);
+    layers.first = samplesOf(sample.frameA, moment.field.a);
+    if (second) layers.second = samplesOf(sample.frameB, moment.field.b);
+    layers.fraction = sample.fraction;
+    for (const CutPlane& cut : cutPlanes(scene_, scene_.volumes[volume])) layers.planes.push_back(cut.plane);
+    result.layers = std::move(layers);
+    if (moment.level > finestInLayers_)
+        result.substitutes[volume] = std::max(result.substitutes[volume], moment.level);
 }
 
 void SceneExtractor::addSurfaces(std::size_t v, double position, View view, SceneMeshes& result) {

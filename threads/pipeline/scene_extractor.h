@@ -3,6 +3,7 @@
 #include "mesh/surface_mesh.h"
 #include "pipeline/key_frame_cache.h"
 #include "pipeline/played_series.h"
+#include "pipeline/scene_layers.h"
 #include "plan/work_plan.h"
 #include "scene/scene.h"
 #include "surface/extract.h"
@@ -51,6 +52,7 @@ struct SceneMeshes {
     /// One a volume: the stored level that was taken in place of its key frames, or of those that colour it,
     /// because they are not there yet; 0 where all is as the scene wants it.
     std::vector<int> substitutes;
+    std::optional<SceneLayers> layers;  ///< where a volume is shown in layers that are not clipped away
 
     /// The coarsest of them.
     int substitute() const { return substitutes.empty() ? 0 : std::ranges::max(substitutes); }
@@ -114,9 +116,10 @@ class SceneExtractor {
 
     /// `series` numbers those of the volumes, then those that colour. Frames that are not needed are left
     /// out.
-    Moment momentAt(std::size_t series, const TimeSample& sample, bool first, bool second);
+    /// No finer level than `finest` is taken, which must be stored unless it is 0.
+    Moment momentAt(std::size_t series, const TimeSample& sample, bool first, bool second, int finest = 0);
     const PlayedSeries& played(std::size_t series) const;
-    int levelNow(std::size_t series, const std::vector<std::size_t>& frames) const;
+    int levelNow(std::size_t series, const std::vector<std::size_t>& frames, int finest) const;
     std::vector<PlannedWork> planAt(std::size_t volume, const TimeSample& sample) const;
     std::vector<float> colorValues(const SurfaceMesh& mesh, const ExtractedSurface& place,
                                    const Moment& moment, const ExtractOptions& options, double position,
@@ -124,6 +127,7 @@ class SceneExtractor {
     std::vector<FrameKey> framesAhead(double position, Course course) const;
     std::vector<FrameKey> framesAt(double position) const;
     double keyPositionBeyond(double position, bool forwards) const;
+    void addLayers(std::size_t volume, SceneMeshes& result);
     void addSurfaces(std::size_t volume, double position, View view, SceneMeshes& result);
     ExtractOptions optionsFor(const Volume& volume, const Surface& surface, const View& view) const;
     View viewOf(const Volume& volume, const CameraPose& camera, glm::ivec2 imageSize) const;
@@ -133,6 +137,9 @@ class SceneExtractor {
     std::vector<PlayedSeries> series_;
     std::vector<ColorSeries> colorSeries_;
     std::unique_ptr<KeyFrameCache> cache_;
+    std::optional<std::size_t> layered_;  ///< volume
+    int finestInLayers_ = 0;              ///< level
+    LayerSamples layerSamples_;
 };
 
 }  // namespace isoglass

@@ -5,7 +5,7 @@
 namespace isoglass {
 namespace {
 
-/// What is done for a volume: first key frame, second key frame, then the surfaces.
+/// What is done for a volume: first key frame, second key frame, the surfaces, dense samples.
 std::vector<bool> neededFor(bool onKeyFrame, bool clippedAway, std::vector<float> opacities) {
     VolumeState volume;
     volume.onKeyFrame = onKeyFrame;
@@ -23,13 +23,13 @@ std::vector<bool> neededFor(bool onKeyFrame, bool clippedAway, std::vector<float
 
 TEST(WorkPlan, DoesWhatIsNeededAndNoMore) {
     using Bits = std::vector<bool>;
-    EXPECT_EQ(neededFor(false, false, {1}), (Bits{true, true, true}));
-    EXPECT_EQ(neededFor(false, false, {0.5f, 1, 0}), (Bits{true, true, true, true, false}));
-    EXPECT_EQ(neededFor(true, false, {1, 0.5f}), (Bits{true, false, true, true}));
-    EXPECT_EQ(neededFor(false, false, {0, -1}), (Bits{false, false, false, false}));
-    EXPECT_EQ(neededFor(true, false, {0}), (Bits{false, false, false}));
-    EXPECT_EQ(neededFor(false, true, {1, 1}), (Bits{false, false, false, false}));
-    EXPECT_EQ(neededFor(false, false, {}), (Bits{false, false}));
+    EXPECT_EQ(neededFor(false, false, {1}), (Bits{true, true, true, false}));
+    EXPECT_EQ(neededFor(false, false, {0.5f, 1, 0}), (Bits{true, true, true, true, false, false}));
+    EXPECT_EQ(neededFor(true, false, {1, 0.5f}), (Bits{true, false, true, true, false}));
+    EXPECT_EQ(neededFor(false, false, {0, -1}), (Bits{false, false, false, false, false}));
+    EXPECT_EQ(neededFor(true, false, {0}), (Bits{false, false, false, false}));
+    EXPECT_EQ(neededFor(false, true, {1, 1}), (Bits{false, false, false, false, false}));
+    EXPECT_EQ(neededFor(false, false, {}), (Bits{false, false, false}));
 }
 
 std::string reasonOf(std::size_t item, bool onKeyFrame, bool clippedAway, float opacity) {
@@ -38,6 +38,22 @@ std::string reasonOf(std::size_t item, bool onKeyFrame, bool clippedAway, float 
     volume.clippedAway = clippedAway;
     volume.surfaceOpacities.push_back(opacity);
     return planVolume(volume).at(item).reason;
+}
+
+TEST(WorkPlan, LayersNeedSamplesInPlaceOfTheFirstSurface) {
+    VolumeState volume;
+    volume.surfaceOpacities = {0, 0.5f};
+    volume.layered = true;
+    std::vector<PlannedWork> plan = planVolume(volume);
+    EXPECT_TRUE(isNeeded(plan, WorkKind::secondKeyFrame));
+    EXPECT_TRUE(isNeeded(plan, WorkKind::samples));
+    EXPECT_FALSE(isNeeded(plan, WorkKind::extraction, 0));
+    EXPECT_TRUE(isNeeded(plan, WorkKind::extraction, 1));
+    EXPECT_EQ(plan.at(2).reason, "its layers are found in the samples");
+    volume.clippedAway = true;
+    plan = planVolume(volume);
+    EXPECT_FALSE(isNeeded(plan, WorkKind::samples));
+    EXPECT_FALSE(isNeeded(plan, WorkKind::firstKeyFrame));
 }
 
 TEST(WorkPlan, ReasonsTellTheCauses) {

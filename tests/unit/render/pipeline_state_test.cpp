@@ -37,14 +37,15 @@ void expectGlHas(const PipelineState& state) {
         EXPECT_EQ(glIsEnabledi(GL_BLEND, i), state.blend[i] != Blend::replace) << "target " << i;
         if (state.blend[i] == Blend::replace) continue;
         const bool add = state.blend[i] == Blend::add;
+        const bool cover = state.blend[i] == Blend::cover;
         const auto has = [i](GLenum what, GLint factor) {
             GLint value = 0;
             glGetIntegeri_v(what, i, &value);
             EXPECT_EQ(value, factor) << "target " << i;
         };
         has(GL_BLEND_SRC_RGB, state.blend[i] == Blend::under ? GL_DST_ALPHA : GL_ONE);
-        has(GL_BLEND_DST_RGB, state.blend[i] == Blend::over ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE);
-        has(GL_BLEND_SRC_ALPHA, add ? GL_ONE : GL_ZERO);
+        has(GL_BLEND_DST_RGB, state.blend[i] == Blend::over || cover ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE);
+        has(GL_BLEND_SRC_ALPHA, add || cover ? GL_ONE : GL_ZERO);
         has(GL_BLEND_DST_ALPHA, add ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
     }
     GLboolean mask[4];
@@ -62,7 +63,7 @@ PipelineState randomState(std::mt19937& random) {
     state.depthWrite = pick(2) != 0;
     state.culling = static_cast<Culling>(pick(3));
     state.frontIsClockwise = pick(2) != 0;
-    for (Blend& blend : state.blend) blend = static_cast<Blend>(pick(5));
+    for (Blend& blend : state.blend) blend = static_cast<Blend>(pick(6));
     state.colorWrite = pick(2) != 0;
     state.wireframe = pick(2) != 0;
     return state;

@@ -158,7 +158,27 @@ INSTANTIATE_TEST_SUITE_P(NotAvailable, SceneErrors,
                                          Wrong{"/terrain", "{}", nullptr, "not available in this version"},
                                          Wrong{"/ocean", "{}", nullptr, "not available in this version"},
                                          Wrong{"/sky", "{}", nullptr, "not available in this version"},
-                                         Wrong{"/style", "{}", nullptr, "not available in this version"}));
+                                         Wrong{"/style", R"({"kind": "volume"})", "/style/kind",
+                                               "not available in this version"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Styles, SceneErrors,
+    testing::Values(
+        Wrong{"/style", "{}", "/style/kind", "missing"},
+        Wrong{"/style", R"({"kind": "layer"})", "/style/kind", "layers"},
+        Wrong{"/style", R"({"kind": "layers", "volume": "none"})", "/style/volume", "no volume"},
+        Wrong{"/style", R"({"kind": "layers", "count": 0})", "/style/count", "1 to 16"},
+        Wrong{"/style", R"({"kind": "layers", "count": 17})", "/style/count", "1 to 16"},
+        Wrong{"/style", R"({"kind": "layers", "count": 2, "first": 3})", "/style/first", "1 to 2"},
+        Wrong{"/style", R"({"kind": "layers", "show": "nth", "first": 1})", "/style/first", "alone"},
+        Wrong{"/style", R"({"kind": "layers", "colors": []})", "/style/colors", "1 to 16"},
+        Wrong{"/style", R"({"kind": "layers", "colors": ["red"]})", "/style/colors/0", "sRGB"},
+        Wrong{"/style", R"({"kind": "layers", "opacities": [2]})", "/style/opacities/0", "at most 1"},
+        Wrong{"/style", R"({"kind": "layers", "show": "nth", "opacities": [1]})", "/style/opacities",
+              "composed"},
+        Wrong{"/style", R"({"kind": "layers", "silhouette": 0.5})", "/style/silhouette", "silhouettes"},
+        Wrong{"/style", R"({"kind": "layers", "step": 0})", "/style/step", "number"},
+        Wrong{"/style", R"({"kind": "layers", "steps": 1})", "/style/steps", "step"}));
 
 INSTANTIATE_TEST_SUITE_P(
     UnknownKeys, SceneErrors,
@@ -181,6 +201,7 @@ TEST(SceneErrors, EveryKnownKeyIsLookedAt) {
                 scene[json::json_pointer(pointer)] = {{"model", "constant"}, {"opacity", 1}};
             if (object.pointer == "/camera/path/*") scene[json::json_pointer(pointer)] = {{"at", 0}};
             if (object.pointer == "/camera/path/*") scene["camera"]["eye"] = {3, 2, 1};
+            if (object.pointer == "/style") scene["style"] = {{"kind", "layers"}};
             scene[json::json_pointer(place)] = nullptr;
             const std::string message = messageOf(scene.dump());
             EXPECT_NE(message.find("(scene.json, " + place + ")"), std::string::npos) << message;

@@ -1,0 +1,170 @@
+#include "render/volume_recorder.h"
+
+#include "base/error.h"
+#include "render/uniforms.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace isoglass {
+namespace {
+
+enum Unit { valuesA = 16, valuesB = 17, rangesA = 18, rangesB = 19, axisTables = 20 };
+
+/// Of a step: axes that are off by less are even.
+constexpr double kEven = 1e-6;
+
+/// How "local" coordinates of an axis come from those of the series: direction * (x - middle).
+struct LocalAxis {
+    double middle;
+    double direction;  ///< -1 where the series' coordinates decrease
+
+    double operator()(double x) const { return direction * (x - middle); }
+};
+
+LocalAxis localAxis(const std::vector<double>& coordinates) {
+    return {0.5 * (coordinates.front() + coordinates.back()),
+            coordinates.back() < coordinates.front() ? -1.0 : 1.0};
+}
+
+bool isEven(const std::vector<double>& coordinates) {
+    const double step =
+        (coordinates.back() - coordinates.front()) / static_cast<double>(coordinates.size() - 1);
+    for (std::size_t i = 0; i < coordinates.size(); ++i) {
+        const double even = coordinates.front() + static_cast<double>(i) * step;
+        if (std::abs(coordinates[i] - even) > kEven * std::abs(step)) return false;
+    }
+    return true;
+}
+
+std::array<glm::vec4, 3> columns(const glm::dmat3& matrix) {
+    return {glm::vec4(glm::vec3(matrix[0]), 0), glm::vec4(glm::vec3(matrix[1]), 0),
+            glm::vec4(glm::vec3(matrix[2]), 0)};
+}
+
+/// The largest element becomes 1.
+glm::dmat3 scaledToOne(glm::dmat3 matrix) {
+    double largest = 0;
+    for (int column = 0; column < 3; ++column) {
+        for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(matrix[column][row]));
+    }
+    return matrix / largest;
+}
+
+glm::vec4 direction(const glm::dvec3& v) {
+    return {glm::vec3(v), 0};
+}
+
+}  // namespace
+
+VolumeRecorder::VolumeRecorder() : uniforms_(gl::Buffer::updatable(sizeof(VolumeUniforms))) {}
+
+void VolumeRecorder::prepare(const std::optional<LayerDraw>& draw, const VolumeStore& volumes) {
+    draw_ = draw;
+    volumes_ = &volumes;
+    if (!draw_) return;
+    if (draw_->planes.size() > kMostVolumePlanes) {
+        throw Error(std::to_string(draw_->planes.size()) + " planes cut a volume that is shown in layers",
+                    "clip", "use at most " + std::to_string(kMostVolumePlanes));
+    }
+    evenAxes_ = std::ranges::all_of(draw_->axes, isEven);
+}
+
+VolumeVariant VolumeRecorder::variant() const {
+    VolumeVariant variant;
+    if (!draw_) return variant;
+    const bool two = draw_->fraction > 0;
+    if (two) variant.defines.push_back("TWO_KEY_FRAMES");
+    if (!evenAxes_) variant.defines.push_back("UNEVEN_AXES");
+    if (draw_->wholeRay) variant.defines.push_back("WHOLE_RAY");
+    if (draw_->output == LayerDraw::Output::measure) variant.defines.push_back("MEASURE");
+    variant.units = {valuesA, rangesA};
+    if (two) variant.units = {valuesA, valuesB, rangesA, rangesB};
+    if (!evenAxes_) variant.units.push_back(axisTables);
+    return variant;
+}
+
+void VolumeRecorder::upload(const CameraView& camera, glm::dvec2 clipShift, double nearDistance) {
+    if (!draw_) return;
+    VolumeUniforms uniforms{};
+    glm::dvec3 middle, turned;
+    for (int k = 0; k < 3; ++k) {
+        const std::vector<double>& axis = draw_->axes[static_cast<std::size_t>(k)];
+        const LocalAxis local = localAxis(axis);
+        middle[k] = local.middle;
+        turned[k] = local.direction;
+        const double length = local(axis.back()) - local(axis.front());
+        uniforms.boxLow[k] = static_cast<float>(local(axis.front()));
+        uniforms.boxHigh[k] = static_cast<float>(local(axis.back()));
+        uniforms.indexPerUnit[k] = static_cast<float>(static_cast<double>(axis.size() - 1) / length);
+        uniforms.samples[k] = static_cast<int>(axis.size());
+    }
+    const glm::dmat4 seriesFromWorld = glm::inverse(draw_->worldFromSeries);
+    const glm::dmat3 localFromWorld =
+        glm::dmat3(glm::dvec3(turned.x, 0, 0), glm::dvec3(0, turned.y, 0), glm::dvec3(0, 0, turned.z)) *
+        glm::dmat3(seriesFromWorld);
+    const glm::dvec3 eyeSeries(seriesFromWorld * glm::dvec4(camera.eye, 1));
+    uniforms.eye = direction(turned * (eyeSeries - middle));
+    const ViewAxes view = viewAxes(camera);
+    const double height = std::tan(camera.fovDegrees * M_PI / 360);
+    const double width = height * camera.size.x / camera.size.y;
+    uniforms.forward = direction(localFromWorld * view.forward);
+    uniforms.right = direction(width * (localFromWorld * view.right));
+    uniforms.up = direction(height * (localFromWorld * view.up));
+    uniforms.worldFromLocal = columns(glm::inverse(localFromWorld));
+    uniforms.normalFromLocal = columns(scaledToOne(glm::transpose(localFromWorld)));
+    for (std::size_t i = 0; i < draw_->planes.size(); ++i) {
+        const glm::dvec4& plane = draw_->planes[i];
+        uniforms.planes[i] =
+            glm::vec4(glm::dvec4(turned * glm::dvec3(plane), plane.w + glm::dot(glm::dvec3(plane), middle)));
+    }
+    uniforms.planeCount = static_cast<int>(draw_->planes.size());
+    uniforms.shift = clipShift;
+    uniforms.fraction = draw_->fraction;
+    uniforms.iso = draw_->iso;
+    uniforms.nearDistance = static_cast<float>(nearDistance);
+    const LayerStyle& style = draw_->style;
+    uniforms.stepCells = static_cast<float>(style.step);
+    uniforms.layersWanted = style.count;
+    uniforms.firstLayer = style.show == LayerStyle::Show::nth ? style.count : style.first;
+    uniforms.show = static_cast<int>(style.show);
+    uniforms.silhouette = static_cast<float>(style.silhouette);
+    for (int layer = 0; layer < style.count; ++layer)
+        uniforms.layerColors[static_cast<std::size_t>(layer)] = {layerColor(style, layer, draw_->color),
+                                                                 layerOpacity(style, layer)};
+    uniforms_.write(0, std::as_bytes(std::span(&uniforms, 1)));
+    if (!evenAxes_) uploadAxes();
+}
+
+void VolumeRecorder::uploadAxes() {
+    std::size_t longest = 0;
+    for (const auto& axis : draw_->axes) longest = std::max(longest, axis.size());
+    std::vector<float> rows(3 * longest, 0);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto& axis = draw_->axes[k];
+        const LocalAxis local = localAxis(axis);
+        for (std::size_t i = 0; i < axis.size(); ++i)
+            rows[k * longest + i] = static_cast<float>(local(axis[i]));
+    }
+    axisTables_.emplace(GL_R32F, glm::ivec2(static_cast<int>(longest), 3));
+    glTextureSubImage2D(axisTables_->name(), 0, 0, 0, static_cast<GLsizei>(longest), 3, GL_RED, GL_FLOAT,
+                        rows.data());
+}
+
+void VolumeRecorder::bind() const {
+    const GpuVolume& first = volumes_->get(draw_->first);
+    const GpuVolume& second = draw_->fraction > 0 ? volumes_->get(draw_->second) : first;
+    glBindBufferBase(GL_UNIFORM_BUFFER, VolumeUniforms::kBinding, uniforms_.name());
+    glBindTextureUnit(valuesA, first.values.name());
+    glBindTextureUnit(valuesB, second.values.name());
+    glBindTextureUnit(rangesA, first.ranges.name());
+    glBindTextureUnit(rangesB, second.ranges.name());
+    glBindTextureUnit(axisTables, axisTables_ ? axisTables_->name() : 0);
+}
+
+}  // namespace isoglass

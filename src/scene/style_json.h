@@ -1,0 +1,16 @@
+#pragma once
+
+#include "scene/json_node.h"
+#include "scene/scene.h"
+
+#include <nlohmann/json.hpp>
+
+namespace isoglass {
+
+/// Reads the object `style` of a scene file; the scene's volumes must be there.
+void readStyle(const JsonNode& node, Scene& scene);
+
+/// The same as JSON.
+nlohmann::ordered_json styleJson(const LayerStyle& style);
+
+}  // namespace isoglass

@@ -1,0 +1,200 @@
+// The style "layers" from the series to the picture.
+
+#include "pipeline/scene_layers.h"
+
+#include "base/error.h"
+#include "gl/headless_context.h"
+#include "pipeline/batch.h"
+#include "pipeline/render_loop.h"
+#include "support/terrain_lattice.h"
+#include "unit/volume/series_fixture.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace isoglass {
+namespace {
+
+constexpr std::size_t kKeyFrames = 3;
+constexpr std::int64_t kFrames = 8;
+
+/// A ball that grows evenly with time: its field |p| - 0.2 t is linear in time, so between key frames it is
+/// exact. At iso-value 0.3 the radius is 0.3 + 0.2 t.
+class SceneLayersTest : public testing::Test {
+  protected:
+    ScratchFolder folder_;
+    Scene scene_;
+
+    void SetUp() override {
+        const Lattice lattice = makeUniformLattice(glm::ivec3(41), glm::dvec3(-1), glm::dvec3(0.05));
+        std::vector<std::vector<float>> frames;
+        for (std::size_t frame = 0; frame < kKeyFrames; ++frame) {
+            std::vector<float>& samples = frames.emplace_back();
+            for (int z = 0; z < 41; ++z) {
+                for (int y = 0; y < 41; ++y) {
+                    for (int x = 0; x < 41; ++x) {
+                        const double r = glm::length(0.05 * glm::dvec3(x, y, z) - 1.0);
+                        samples.push_back(static_cast<float>(r - 0.2 * static_cast<double>(frame)));
+                    }
+                }
+            }
+        }
+        test::MemorySource source(test::describe(lattice, kKeyFrames), std::move(frames));
+        writeSeries(source, folder_ / "ball.vdb");
+        Volume volume;
+        volume.name = "ball";
+        volume.series = folder_ / "ball.vdb";
+        volume.surfaces = {{.iso = 0.3, .color = {1, 0, 0}}};
+        scene_.volumes = {volume};
+        scene_.time = {.from = 0.0, .to = kKeyFrames - 1.0, .duration = kFrames / 25.0, .fps = 25};
+        scene_.camera.pose = {.eye = {20, 0, 0}, .target = {0, 0, 0}};
+        scene_.camera.fovDegrees = 6;
+        scene_.image.size = {96, 96};
+        scene_.image.background = LinearColor(0);
+        scene_.lighting = {.ambient = 1, .diffuse = 0, .specular = 0, .shininess = 1};
+        scene_.layers = LayerStyle{.show = LayerStyle::Show::nth, .count = 1};
+    }
+
+    SceneMeshes extract(SceneExtractor& extractor, double position) const {
+        return extractor.extract(position, scene_.camera.pose, scene_.image.size);
+    }
+};
+
+int redPixels(const Image& image) {
+    return static_cast<int>(std::ranges::count_if(
+        image.pixels, [](const Rgba8& pixel) { return pixel.r == 255 && pixel.g == 0; }));
+}
+
+TEST_F(SceneLayersTest, FramesShowTheMomentBetweenKeyFrames) {
+    SceneExtractor extractor(scene_, {});
+    int frames = 0;
+    renderFrames(scene_, extractor, {0, kFrames - 1}, [&](RenderedFrame frame) {
+        const double time = static_cast<double>(frame.frame) / kFrames * (kKeyFrames - 1);
+        const double radius = 0.3 + 0.2 * time;
+        // The cone that touches the ball meets the picture in a circle; half the picture is tan(3 degrees).
+        const double seen = std::tan(std::asin(radius / 20)) / std::tan(3 * M_PI / 180) * 48;
+        const double area = M_PI * seen * seen;
+        // Pixels on the rim may fall on either side: at most those that a ring of the pixel's diagonal
+        // covers, and with it what the radius is off between samples, 0.05^2 / 8 * 2 / radius.
+        const double off = std::sqrt(0.5) + 0.05 * 0.05 / 4 / radius / radius * seen;
+        EXPECT_NEAR(redPixels(frame.image), area, 2 * M_PI * seen * off) << frame.frame;
+        EXPECT_TRUE(frame.meshes.surfaces.at(0).mesh->empty()) << "it is not shown, so not extracted";
+        ++frames;
+        return true;
+    });
+    EXPECT_EQ(frames, kFrames);
+}
+
+TEST_F(SceneLayersTest, EachKeyFrameIsMadeAndUploadedOnce) {
+    SceneExtractor extractor(scene_, {});
+    gl::HeadlessContext context;
+    Renderer renderer(context.context());
+    LayerUploads uploads;
+    std::set<VolumeId> seen;
+    std::set<const VolumeSamples*> made;
+    std::vector<SceneLayers> kept;
+    for (int i = 0; i <= 20; ++i) {
+        const SceneMeshes meshes = extract(extractor, i / 20.0);
+        ASSERT_TRUE(meshes.layers);
+        kept.push_back(*meshes.layers);
+        uploads.replace(meshes.layers, renderer.volumes());
+        const auto draw = uploads.draw(scene_, 0);
+        ASSERT_TRUE(draw);
+        seen.insert({draw->first, draw->second});
+        made.insert(meshes.layers->first.get());
+        if (meshes.layers->second) made.insert(meshes.layers->second.get());
+        EXPECT_LE(renderer.volumes().count(), 2u);
+        EXPECT_EQ(draw->fraction, static_cast<float>(meshes.times[0].fraction));
+    }
+    EXPECT_EQ(made.size(), kKeyFrames);
+    EXPECT_EQ(seen.size(), kKeyFrames);
+    uploads.replace(std::nullopt, renderer.volumes());
+    EXPECT_EQ(renderer.volumes().count(), 0u);
+    EXPECT_FALSE(uploads.draw(scene_, 0));
+}
+
+TEST_F(SceneLayersTest, OtherSurfacesAreDrawnAsEver) {
+    scene_.volumes[0].surfaces.push_back({.iso = 0.1, .color = {0, 1, 0}});
+    SceneExtractor extractor(scene_, {});
+    const SceneMeshes meshes = extract(extractor, 0.6);
+    ASSERT_EQ(meshes.surfaces.size(), 2u);
+    EXPECT_TRUE(meshes.surfaces[0].mesh->empty());
+    EXPECT_FALSE(meshes.surfaces[1].mesh->empty());
+}
+
+TEST_F(SceneLayersTest, WhatIsClippedAwayNeedsNothing) {
+    scene_.clip = {{.plane = {0, 0, 1, -5}}};
+    SceneExtractor extractor(scene_, {});
+    EXPECT_FALSE(extract(extractor, 0.6).layers);
+    EXPECT_EQ(extractor.cache().bytes(), 0u);
+}
+
+TEST_F(SceneLayersTest, ClipPlanesReachTheRays) {
+    scene_.volumes[0].place.translate = {0, 0, 3};
+    scene_.clip = {{.plane = {0, 0, 1, -3}}};
+    scene_.volumes[0].clip = {{.plane = {1, 0, 0, 0.25}}};
+    SceneExtractor extractor(scene_, {});
+    const SceneMeshes meshes = extract(extractor, 0);
+    ASSERT_TRUE(meshes.layers);
+    EXPECT_EQ(meshes.layers->planes, (std::vector<glm::dvec4>{{1, 0, 0, 0.25}, {0, 0, 1, 0}}));
+}
+
+TEST_F(SceneLayersTest, SeriesWithHeightsAreRefused) {
+    const test::TerrainLattice terrain({5, 4, 3}, 0);
+    class Source final : public FrameSource {
+      public:
+        explicit Source(const test::TerrainLattice& of)
+            : terrain(of), series(test::describe(of.lattice, 1)) {}
+        const SeriesDescription& description() const override { return series; }
+        void read(std::size_t, std::span<float> out) override { std::ranges::fill(out, 1.0f); }
+        void readHeights(std::size_t, std::span<float> out) override {
+            std::ranges::copy(terrain.heights(0.3), out.begin());
+        }
+        const test::TerrainLattice& terrain;
+        SeriesDescription series;
+    } source(terrain);
+    writeSeries(source, folder_ / "heights.vdb");
+    scene_.volumes[0].series = folder_ / "heights.vdb";
+    scene_.time = {};
+    EXPECT_THROW(SceneExtractor(scene_, {}), Error);
+}
+
+TEST(LayerSamples, PeriodicAxesAreClosedAndMissingSamplesStay) {
+    Lattice lattice = makeUniformLattice({6, 5, 4}, glm::dvec3(0), glm::dvec3(1));
+    lattice.axes[0].period = 6;
+    std::vector<float> values = randomFloats({6, 5, 4}, 3);
+    removeSamples(values, 10, 4);
+    const auto frame = makeKeyFrame(lattice, values);
+    LayerSamples cache;
+    const auto samples = cache.of({}, *frame, 1);
+    EXPECT_EQ(samples->dims, glm::ivec3(7, 5, 4));
+    EXPECT_EQ(sampleAxes(lattice)[0].size(), 7u);
+    EXPECT_EQ(sampleAxes(lattice)[0].back(), 6);
+    std::size_t i = 0;
+    for (int z = 0; z < 4; ++z) {
+        for (int y = 0; y < 5; ++y) {
+            for (int x = 0; x < 7; ++x, ++i) {
+                const float wanted = values[sampleAt({6, 5, 4}, {x % 6, y, z})];
+                EXPECT_TRUE(samples->values[i] == wanted ||
+                            (std::isnan(samples->values[i]) && std::isnan(wanted)));
+            }
+        }
+    }
+    EXPECT_EQ(cache.of({}, *frame, 1), samples);
+}
+
+TEST(LayerSamples, TooManySamplesTakeACoarserLevel) {
+    const auto levelOf = [](int samples) {
+        return LayerSamples::levelFor(makeUniformLattice(glm::ivec3(samples), glm::dvec3(0), glm::dvec3(1)));
+    };
+    EXPECT_EQ(levelOf(256), 0);
+    EXPECT_EQ(levelOf(406), 0);  // 406^3 floats are 255.3 MiB
+    EXPECT_EQ(levelOf(408), 1);
+    EXPECT_EQ(levelOf(1024), 2);
+}
+
+}  // namespace
+}  // namespace isoglass
