@@ -1,6 +1,7 @@
 // Playback from a disk that brings key frames late or not at all. No test measures time: what the disk
 // brings, and when, is in the hands of the test.
 
+#include "base/error.h"
 #include "pipeline/scene_extractor.h"
 #include "threads/eventually.h"
 #include "unit/volume/series_fixture.h"
@@ -48,6 +49,8 @@ class Disk {
         open_ = true;
         changed_.notify_all();
     }
+    /// From now on key frames cannot be read.
+    void breakDown() { broken_ = true; }
     /// Frames whose samples were asked for, in that order.
     std::vector<std::size_t> asked() const {
         const std::scoped_lock lock(mutex_);
@@ -55,15 +58,16 @@ class Disk {
     }
 
     std::shared_ptr<const SeriesFile> series() {
-        return std::make_shared<SeriesFile>(file_->path(), file_->description(),
-                                            [this](std::size_t frame, int level) {
-                                                if (level == 0) {
-                                                    std::unique_lock lock(mutex_);
-                                                    asked_.push_back(frame);
-                                                    changed_.wait(lock, [this] { return open_; });
-                                                }
-                                                return file_->readLevel(frame, level);
-                                            });
+        return std::make_shared<SeriesFile>(
+            file_->path(), file_->description(), [this](std::size_t frame, int level) {
+                if (level == 0) {
+                    std::unique_lock lock(mutex_);
+                    asked_.push_back(frame);
+                    changed_.wait(lock, [this] { return open_; });
+                    if (broken_) throw Error("the disk is broken", file_->path().string());
+                }
+                return file_->readLevel(frame, level);
+            });
     }
     const SeriesFile& file() const { return *file_; }
 
@@ -72,6 +76,7 @@ class Disk {
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     bool open_ = true;
+    std::atomic<bool> broken_{false};
     std::vector<std::size_t> asked_;
 };
 
@@ -181,6 +186,18 @@ TEST_F(StreamingTest, OneKeyFrameOfTwoIsNotMixedWithALevel) {
     EXPECT_EQ(extract(1.0 / 3).substitute(), 0);
     disk_->open();
     extractor_.reset();
+}
+
+/// The level must not stand there for ever.
+TEST_F(StreamingTest, KeyFrameThatCannotBeReadIsReported) {
+    makeSeries(4);
+    disk_->close();
+    disk_->breakDown();
+    start(options(0));
+    EXPECT_EQ(extract(0.5).substitute(), 1);
+    disk_->open();
+    ASSERT_TRUE(eventually([&] { return cache().arrivals() >= 1; }));
+    EXPECT_THROW(extract(1.0 / 3), Error);
 }
 
 TEST_F(StreamingTest, BatchWaitsForTheKeyFrames) {

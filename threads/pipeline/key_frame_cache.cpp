@@ -106,7 +106,7 @@ void KeyFrameCache::want(std::vector<FrameKey> keys) {
 
 double KeyFrameCache::expectedSeconds(FrameKey key) const {
     const std::scoped_lock lock(mutex_);
-    if (frames_.contains(key)) return 0;
+    if (frames_.contains(key) || failed_.contains(key)) return 0;
     // A small level says more of how long a disk takes to begin than of how much it brings.
     const double rate = key.level > 0 ? std::max(bytesPerSecond_[0], bytesPerSecond_[1]) : bytesPerSecond_[0];
     return static_cast<double>(expectedBytes(key)) / rate;
@@ -213,15 +213,15 @@ void KeyFrameCache::prefetch(std::stop_token stop) {
         }
         try {
             read(lock, *key);
-            ++arrivals_;
-            if (!arrived_) continue;
-            lock.unlock();
-            arrived_();
-            lock.lock();
         } catch (const std::exception&) {
             // `get` reads it again and reports to the one who needs it.
             failed_.insert(*key);
         }
+        ++arrivals_;
+        if (!arrived_) continue;
+        lock.unlock();
+        arrived_();
+        lock.lock();
     }
 }
 

@@ -41,8 +41,9 @@ class KeyFrameCache {
         withErrors,  ///< and what the coarser levels lack, likewise
     };
 
-    /// `arrived` runs on the reading thread after a frame was read ahead; it must not throw. Throws Error
-    /// where the budget cannot hold two key frames of every series: one moment between key frames needs two.
+    /// `arrived` runs on the reading thread after a frame was read ahead, or could not be; it must not throw.
+    /// Throws Error where the budget cannot hold two key frames of every series: one moment between key
+    /// frames needs two.
     KeyFrameCache(std::vector<std::shared_ptr<const SeriesFile>> series, std::size_t budgetBytes,
                   Frames kept = Frames::plain, std::function<void()> arrived = {});
     ~KeyFrameCache();
@@ -55,9 +56,10 @@ class KeyFrameCache {
     /// the budget reaches; a frame that cannot be read is left for `get` to report.
     void want(std::vector<FrameKey> keys);
 
-    /// How long it takes to read a frame, judged by what was read before: 0 where it is in memory.
+    /// How long it takes to read a frame, judged by what was read before: 0 where it is in memory, or could
+    /// not be read ahead, so that `get` will say why.
     double expectedSeconds(FrameKey key) const;
-    /// Frames that were read ahead since the beginning.
+    /// Frames that were read ahead since the beginning, or could not be.
     std::uint64_t arrivals() const;
 
     /// Bytes of all frames that are cached, held or being read; never above the budget.

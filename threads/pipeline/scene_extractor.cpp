@@ -265,7 +265,8 @@ std::vector<std::shared_ptr<const SeriesFile>> SceneExtractor::files() const {
 
 SceneMeshes SceneExtractor::extract(double position, const CameraPose& camera, glm::ivec2 imageSize,
                                     Course course) {
-    cache_->want(framesAhead(position, course));
+    const std::vector<FrameKey> ahead = framesAhead(position, course);
+    cache_->want(ahead);
     SceneMeshes result;
     for (std::size_t v = 0; v < scene_.volumes.size(); ++v) {
         const SeriesDescription& series = series_[v].file->description();
@@ -283,6 +284,8 @@ SceneMeshes SceneExtractor::extract(double position, const CameraPose& camera, g
         addSurfaces(v, position, viewOf(scene_.volumes[v], camera, imageSize), result);
         if (isNeeded(result.work.back(), WorkKind::samples)) addLayers(v, result);
     }
+    // What was held here may have taken the room of what is to be read.
+    cache_->want(ahead);
     return result;
 }
 

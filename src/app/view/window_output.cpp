@@ -72,14 +72,16 @@ bool WindowOutput::present(const ShownFrame& shown, Renderer& renderer) {
 }
 
 void WindowOutput::answer(const FrameMeshes& meshes, std::string failure) {
-    // Another request for the same moment follows a substitute.
-    if (order_.screenshotRequest == 0 || meshes.meshes.substitute() == 0) answered_ = meshes.request.number;
+    answered_ = meshes.request.number;
+    substitute_ = meshes.meshes.substitute();
     failure_ = std::move(failure);
 }
 
 void WindowOutput::saveIfDue(Renderer& renderer) {
     const bool asked = order_.screenshots > saved_;
     if (!asked || !answered_ || *answered_ < order_.screenshotRequest) return;
+    // Another request for the same moment follows.
+    if (order_.screenshotRequest > 0 && substitute_ > 0) return;
     saved_ = order_.screenshots;
     screenshots_.save(renderer.readSrgb(), name_);
 }

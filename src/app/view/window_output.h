@@ -71,6 +71,7 @@ class WindowOutput {
     OutputOrder order_;
     std::uint64_t saved_ = 0;
     std::optional<std::uint64_t> answered_;  ///< the newest request whose meshes came, or failed to
+    int substitute_ = 0;                     ///< of those meshes
     std::string failure_;
 };
 
