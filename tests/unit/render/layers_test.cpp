@@ -3,6 +3,10 @@
 #include "base/error.h"
 #include "layer_fixture.h"
 
+#include <zlib.h>
+
+#include <cstdint>
+#include <cstdlib>
 #include <limits>
 
 namespace isoglass::test {
@@ -67,6 +71,25 @@ TEST_F(Traversal, CountsLayersBetweenKeyFramesAsTheCpuDoes) {
     draw().iso = 0.5f;
     draw().fraction = 0.375f;
     EXPECT_GT(expectReference(1).layers, 4);
+}
+
+/// Four times as many cells along a ray as uncertainty() counts on.
+TEST_F(Traversal, CountsLayersOfTheEngineBlockAsTheCpuDoes) {
+    const char* data = std::getenv("ISOGLASS_DATA");
+    if (data == nullptr) GTEST_SKIP() << "ISOGLASS_DATA is not set";
+    const std::string file = std::string(data) + "/static/engine_256x256x128_uint8.raw.gz";
+    setLattice({256, 256, 128});
+    std::vector<std::uint8_t> bytes(std::size_t{256} * 256 * 128);
+    const gzFile packed = gzopen(file.c_str(), "rb");
+    ASSERT_NE(packed, nullptr) << file;
+    const int read = gzread(packed, bytes.data(), static_cast<unsigned>(bytes.size()));
+    gzclose(packed);
+    ASSERT_EQ(read, static_cast<int>(bytes.size()));
+    upload(makeVolumeSamples(dims(), {bytes.begin(), bytes.end()}));
+    draw().iso = 80;
+    const Comparison comparison = expectReference(4 * 255);
+    EXPECT_GT(comparison.certain, 500);
+    EXPECT_GE(comparison.layers, 8);
 }
 
 TEST_F(Traversal, MissingSamplesEndALayer) {
