@@ -158,9 +158,9 @@ TEST_F(Traversal, APlateauAtTheIsoValueLiesOnOneSide) {
 TEST_F(Traversal, ALayerOnTheDomainsFaceIsSeenWhole) {
     setLattice({20, 20, 17});
     frame_.camera = {.eye = {1, 2, 9}, .fovDegrees = 5, .size = {48, 40}};
-    upload(sampled([](const glm::dvec3& p) { return 25 - 0.3 * (p.z + 1); }),
-           sampled([](const glm::dvec3& p) { return 25 - 0.7 * (p.z + 1); }));
-    draw().iso = 25;
+    upload(sampled([](const glm::dvec3& p) { return -0.3 * (p.z + 1); }),
+           sampled([](const glm::dvec3& p) { return -0.7 * (p.z + 1); }));
+    draw().iso = 0;
     for (const float fraction : {0.0f, 0.3f}) {
         draw().fraction = fraction;
         for (const glm::vec3& pixel : measure().pixels) EXPECT_EQ(pixel.g, 1);
