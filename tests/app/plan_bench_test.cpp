@@ -61,11 +61,29 @@ TEST_F(Plan, SaysWhatIsReadAndExtractedAndHowLongThePassesTake) {
     const Json plan = Json::parse(run({"plan", "scene.json", "--json"}).out);
     EXPECT_EQ(plan.at("method"), "4-pass");
     EXPECT_EQ(plan.at("work").size(), 4u) << "a key frame and three surfaces";
-    ASSERT_EQ(plan.at("work_left_out").size(), 1u);
+    ASSERT_EQ(plan.at("work_left_out").size(), 2u);
     EXPECT_EQ(plan.at("work_left_out")[0].at("work"), "second key frame");
+    EXPECT_EQ(plan.at("work_left_out")[1].at("work"), "samples");
     for (const Json& pass : plan.at("passes")) EXPECT_GE(pass.at("milliseconds"), 0) << pass;
     const std::string clock = plan.at("clock");
     EXPECT_TRUE(clock == "GPU timer query" || clock == "serial wall clock") << clock;
+}
+
+TEST_F(Plan, SaysThatLayersTakeSamplesAndAPassOfTheirOwn) {
+    importOcean();
+    std::ofstream(folder_ / "layers.json")
+        << R"({"version": 1, "volumes": [{"series": "ocean.vdb", "surfaces": [{"iso": 15}]}],
+        "image": {"size": [64, 48]}, "style": {"kind": "layers"}})";
+    const Json plan = Json::parse(run({"plan", "layers.json", "--json"}).out);
+    const auto names = [&](const char* list, const char* key) {
+        std::set<std::string> found;
+        for (const Json& item : plan.at(list)) found.insert(item.at(key).get<std::string>());
+        return found;
+    };
+    EXPECT_EQ(names("work", "work"),
+              (std::set<std::string>{"first key frame", "second key frame", "samples"}));
+    EXPECT_TRUE(names("passes", "pass").contains("layers"));
+    EXPECT_TRUE(names("left_out", "pass").contains("opaque"));
 }
 
 class Bench : public AppTest {};
