@@ -63,7 +63,8 @@ struct SparsityOptions {
     /// interval, with their neighbours in space and time, become one value. Those surfaces and their
     /// normals stay as in the source.
     std::optional<ValueRange> keep = {};
-    /// Store the coarser levels, too: up to a seventh more, and a slow disk can show something sooner.
+    /// Store the coarser levels, too: about a fifth more, thin bands a third, and a slow disk can show
+    /// something sooner.
     bool levels = true;
 };
 

@@ -51,6 +51,7 @@ class Disk {
     }
     /// From now on key frames cannot be read.
     void breakDown() { broken_ = true; }
+    void repair() { broken_ = false; }
     /// Frames whose samples were asked for, in that order.
     std::vector<std::size_t> asked() const {
         const std::scoped_lock lock(mutex_);
@@ -224,6 +225,43 @@ TEST_F(StreamingTest, WithoutStoredLevelsTheKeyFramesAreWaitedFor) {
     const SceneMeshes meshes = extract(0.5);
     EXPECT_EQ(meshes.substitute(), 0);
     expectMesh(meshes, 0.5);
+}
+
+/// A level would take the room of a key frame, which would be read again, and so on.
+TEST_F(StreamingTest, WhereLevelsDoNotFitBesideTheKeyFramesThoseAreWaitedFor) {
+    makeSeries(4);
+    const std::size_t largest = disk_->file().description().frames[1].bytes;
+    SceneExtractor::Options tight = options(0);
+    tight.memoryBytes = 2 * largest;
+    start(tight);
+    for (int i = 0; i < 20; ++i) {
+        const SceneMeshes meshes = extract(i % 2 == 0 ? 0.5 : 0.9);
+        EXPECT_EQ(meshes.substitute(), 0);
+        expectMesh(meshes, i % 2 == 0 ? 0.5 : 0.9);
+    }
+}
+
+/// It is no longer one that `get` alone can bring.
+TEST_F(StreamingTest, KeyFrameThatFailedOnceIsReadAheadAgain) {
+    makeSeries(8);
+    disk_->breakDown();
+    std::size_t most = 0;
+    for (const FrameRecord& frame : disk_->file().description().frames)
+        most = std::max<std::size_t>(most, 2 * (frame.bytes + frame.levels[0].bytes));
+    SceneExtractor::Options tight = options(0);
+    tight.memoryBytes = most;
+    start(tight);
+    extract(3.0 / 7);
+    ASSERT_TRUE(eventually([&] { return cache().arrivals() >= 1; }));
+    EXPECT_THROW(extract(3.0 / 7), Error);
+    EXPECT_EQ(cache().expectedSeconds({0, 3}), 0);
+    disk_->repair();
+    EXPECT_EQ(extract(3.0 / 7).substitute(), 0);
+    ASSERT_TRUE(eventually([&] {
+        extract(5.5 / 7);
+        return !cache().holds({0, 3});
+    }));
+    EXPECT_GT(cache().expectedSeconds({0, 3}), 0);
 }
 
 TEST_F(StreamingTest, WhatIsReadInTimeIsWaitedFor) {

@@ -34,6 +34,15 @@ std::size_t bytesOf(const SeriesFile& series, std::size_t frame, KeyFrameCache::
     return plain + Pyramid::largestBytes(lattice.dims(), plain) + errors;
 }
 
+/// Of the finest stored levels; 0 where there are none.
+std::size_t largestLevel(const SeriesFile& series) {
+    std::size_t largest = 0;
+    for (const FrameRecord& frame : series.description().frames) {
+        if (!frame.levels.empty()) largest = std::max<std::size_t>(largest, frame.levels.front().bytes);
+    }
+    return largest;
+}
+
 std::size_t largestFrame(const SeriesFile& series, KeyFrameCache::Frames kept) {
     std::size_t largest = 0;
     for (std::size_t i = 0; i < series.description().frames.size(); ++i)
@@ -122,6 +131,12 @@ std::size_t KeyFrameCache::bytes() const {
     return cachedBytes_ + readingBytes_;
 }
 
+bool KeyFrameCache::fitsMomentWithLevels() const {
+    std::size_t sum = 0;
+    for (const auto& file : series_) sum += 2 * (largestFrame(*file, kept_) + largestLevel(*file));
+    return sum <= budget_;
+}
+
 bool KeyFrameCache::holds(FrameKey key) const {
     const std::scoped_lock lock(mutex_);
     return frames_.contains(key);
@@ -177,6 +192,7 @@ std::shared_ptr<const KeyFrame> KeyFrameCache::read(Lock& lock, FrameKey key) {
     const double newest = static_cast<double>(bytes) / std::max(taken.count(), kShortestRead);
     rate += kNewestShare * (newest - rate);
     cachedBytes_ += bytes;
+    failed_.erase(key);
     frames_[key] = frame;
     return frame;
 }

@@ -65,6 +65,9 @@ class KeyFrameCache {
     /// Bytes of all frames that are cached, held or being read; never above the budget.
     std::size_t bytes() const;
     std::size_t budgetBytes() const { return budget_; }
+    /// Whether two key frames of every series fit all at once, beside two levels that are shown in their
+    /// place. Where they do not, showing levels would take the room of what they stand for.
+    bool fitsMomentWithLevels() const;
     /// Whether the frame is in memory, for tests and progress.
     bool holds(FrameKey key) const;
 

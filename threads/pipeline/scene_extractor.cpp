@@ -97,6 +97,7 @@ SceneExtractor::SceneExtractor(const Scene& scene, Options options)
     using enum KeyFrameCache::Frames;
     const auto frames = scene_.quality.errorPixels ? withErrors : scene_.quality.pixels ? withLevels : plain;
     cache_ = std::make_unique<KeyFrameCache>(files(), options_.memoryBytes, frames, options_.arrived);
+    if (!cache_->fitsMomentWithLevels()) options_.patienceSeconds.reset();
 }
 
 std::vector<PlannedWork> SceneExtractor::planAt(std::size_t volume, const TimeSample& sample) const {
@@ -129,6 +130,10 @@ SceneExtractor::Moment SceneExtractor::momentAt(std::size_t series, const TimeSa
 int SceneExtractor::levelNow(std::size_t series, const std::vector<std::size_t>& frames, int finest) const {
     if (!options_.patienceSeconds) return finest;
     const SeriesDescription& description = played(series).file->description();
+    // A level cuts a periodic axis open: colours end at the seam, and closed volumes would get walls there.
+    const bool seamShows = series >= series_.size() || scene_.volumes[series].closed;
+    const auto periodic = [](const Axis& axis) { return axis.period.has_value(); };
+    if (seamShows && std::ranges::any_of(description.lattice.axes, periodic)) return finest;
     const glm::ivec3 cells = description.lattice.cells();
     int coarsest = 0;
     while (std::max({cells.x, cells.y, cells.z}) >> (coarsest + 1) >= kFewestCells) ++coarsest;

@@ -72,8 +72,9 @@ class SceneExtractor {
         /// Gives meshes velocities, so that they can be shown at times that are not theirs.
         bool motion = false;
         /// Key frames that take longer than so many seconds to read are not waited for: a stored level that
-        /// takes less is shown in their place, or the coarsest of use, until they are there. Without it every
-        /// moment is as the scene wants it.
+        /// takes less is shown in their place, or the coarsest of use, until they are there. Without it, and
+        /// where the budget does not hold a whole moment beside its levels, every moment is as the scene
+        /// wants it.
         std::optional<double> patienceSeconds = {};
         /// Key frames came that may have been missed: the moment is worth another call. Runs on the reading
         /// thread; see KeyFrameCache.

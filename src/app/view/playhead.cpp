@@ -20,6 +20,8 @@ void Playhead::play(double now, bool forwards) {
     playing_ = true;
     forwards_ = forwards;
     since_ = now;
+    // The end is the beginning of the next round, which has no frame of its own.
+    if (!forwards && position_ == 1) position_ = timeline_.position(timeline_.frameCount() - 1);
 }
 
 void Playhead::pause(double now) {

@@ -73,7 +73,8 @@ bool WindowOutput::present(const ShownFrame& shown, Renderer& renderer) {
 
 void WindowOutput::answer(const FrameMeshes& meshes, std::string failure) {
     answered_ = meshes.request.number;
-    substitute_ = meshes.meshes.substitute();
+    // Where they could not be made the old ones stay.
+    if (!meshes.failure) substitute_ = meshes.meshes.substitute();
     failure_ = std::move(failure);
 }
 

@@ -52,6 +52,14 @@ TEST(Playhead, RunsBackwardsFromTheBeginningToTheEnd) {
     }
 }
 
+TEST(Playhead, BackwardsFromTheEndBeginsWithTheLastFrame) {
+    Playhead head(kFourSeconds);
+    head.moveTo(1);
+    head.play(10, false);
+    EXPECT_EQ(head.position(10), 0.99);
+    EXPECT_EQ(head.position(10.041), 0.98);
+}
+
 TEST(Playhead, TurnsRoundWhereItIs) {
     Playhead head(kFourSeconds);
     head.play(0);
