@@ -16,6 +16,8 @@ layout(binding = 1) uniform sampler2D opaqueDepth;
 const int kComposed = 2;
 const int kSilhouettes = 3;
 const int kRefinements = 5;
+// Of a step, down to where values end.
+const int kBorderHalvings = 8;
 // Less than that no 8-bit picture shows.
 const float kOpaqueEnough = 1.0 / 1024.0;
 // Of a step, so that rounding does not stay in the brick.
@@ -69,6 +71,19 @@ float crossing(float t0, float t1) {
         }
     }
     return t0 + (t1 - t0) * clamp(f0 / (f0 - f1), 0.0, 1.0);
+}
+
+// Where values end between a sample that has one and a sample that has none.
+float border(float present, float missing) {
+    for (int i = 0; i < kBorderHalvings; ++i) {
+        float t = 0.5 * (present + missing);
+        if (isnan(valueAt(indexOnRay(t)))) {
+            missing = t;
+        } else {
+            present = t;
+        }
+    }
+    return present;
 }
 
 float cosineAt(vec3 index) {
@@ -140,8 +155,19 @@ void traverse() {
             valid = !isnan(value);
             now = value >= iso;
         }
-        if (valid && known && now != inside) {
-            bool ends = passLayer(crossing(tBefore, t));
+        // A layer reaches as far as values do.
+        float from = tBefore;
+        float to = t;
+        if (known && !valid) {
+            to = border(tBefore, t);
+            now = valueAt(indexOnRay(to)) >= iso;
+        } else if (!known && valid && tBefore < t) {
+            from = border(t, tBefore);
+            inside = valueAt(indexOnRay(from)) >= iso;
+            known = true;
+        }
+        if (known && now != inside) {
+            bool ends = passLayer(crossing(from, to));
 #ifndef WHOLE_RAY
             if (ends) return;
 #endif

@@ -22,6 +22,8 @@ struct LayerHits {
     std::vector<glm::dvec3> normals;  ///< series gradients there
     /// How close a sample comes to the iso-value: the layers are certain where it is above rounding.
     double closest = std::numeric_limits<double>::infinity();
+    /// How close a value comes to the iso-value where values begin or end.
+    double closestAtBorder = std::numeric_limits<double>::infinity();
 };
 
 class LayerReference {
@@ -73,11 +75,12 @@ class LayerReference {
             const glm::dvec3 index = clamped(eye + t * way);
             const double f = value(index) - static_cast<double>(draw_.iso);
             if (!isCertain(index)) hits.closest = 0;
-            if (!std::isnan(f)) {
-                hits.closest = std::min(hits.closest, std::abs(f));
-                if (known && (f >= 0) != (before >= 0)) add(hits, eye, way, tBefore, t);
-            }
-            known = !std::isnan(f);
+            const bool valid = !std::isnan(f);
+            if (valid) hits.closest = std::min(hits.closest, std::abs(f));
+            if (known && valid && (f >= 0) != (before >= 0)) add(hits, eye, way, tBefore, t);
+            if (i > 0 && known != valid)
+                addAtBorder(hits, eye, way, known ? tBefore : t, known ? t : tBefore);
+            known = valid;
             before = f;
             tBefore = t;
             if (t == end) break;
@@ -119,6 +122,20 @@ class LayerReference {
                                      at.x]);
         }
         return sum;
+    }
+
+    /// Between a place with a value and one without, both on the ray.
+    void addAtBorder(LayerHits& hits, const glm::dvec3& eye, const glm::dvec3& way, double present,
+                     double missing) const {
+        const double first = present;
+        for (int i = 0; i < 60; ++i) {
+            const double middle = 0.5 * (present + missing);
+            (std::isnan(value(clamped(eye + middle * way))) ? missing : present) = middle;
+        }
+        const double f = value(clamped(eye + present * way)) - draw_.iso;
+        hits.closestAtBorder = std::min(hits.closestAtBorder, std::abs(f));
+        const bool changes = (f >= 0) != (value(clamped(eye + first * way)) >= draw_.iso);
+        if (changes) add(hits, eye, way, std::min(first, present), std::max(first, present));
     }
 
     void add(LayerHits& hits, const glm::dvec3& eye, const glm::dvec3& way, double low, double high) const {
