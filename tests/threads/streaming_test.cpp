@@ -112,7 +112,9 @@ class StreamingTest : public testing::Test {
         volume.series = folder_ / "series.vdb";
         volume.surfaces = {{.iso = kIso, .opacity = 1}};
         scene_.volumes = {std::move(volume)};
-        scene_.time = {.from = 0.0, .to = static_cast<double>(frames - 1), .duration = 4, .fps = 25};
+        // Ten displayed frames from key frame to key frame.
+        const auto intervals = static_cast<double>(frames - 1);
+        scene_.time = {.from = 0.0, .to = intervals, .duration = 10 * intervals / 25, .fps = 25};
     }
 
     SceneExtractor::Options options(std::optional<double> patience) {
@@ -287,6 +289,13 @@ TEST_F(StreamingOrderTest, NextKeyFramesComeFirst) {
     std::vector<std::size_t> next(65);
     std::iota(next.begin(), next.end(), 0);
     EXPECT_EQ(order(0, {}, 65), next);
+}
+
+/// Five displayed frames, 9.4 key intervals apart: of the key frames those on either side of each are read.
+TEST_F(StreamingOrderTest, KeyFramesThatAreNotDisplayedAreLeftOut) {
+    makeSeries(48);
+    scene_.time.duration = 5 / scene_.time.fps;
+    EXPECT_EQ(order(0, {}, 10), (std::vector<std::size_t>{0, 9, 10, 18, 19, 28, 29, 37, 38, 47}));
 }
 
 TEST_F(StreamingOrderTest, BackwardsThePreviousOnesComeFirst) {

@@ -190,6 +190,15 @@ double SceneExtractor::keyPositionBeyond(double position, bool forwards) const {
     return nearest;
 }
 
+/// Of displayed frames.
+double SceneExtractor::shownPositionBeyond(double position, bool forwards) const {
+    constexpr double kSame = 1e-9;
+    const auto count = static_cast<double>(scene_.time.frameCount());
+    const double beyond =
+        forwards ? std::floor((position + kSame) * count) + 1 : std::ceil((position - kSame) * count) - 1;
+    return std::clamp(beyond / count, 0.0, 1.0);
+}
+
 /// In the order in which they will be needed.
 std::vector<FrameKey> SceneExtractor::framesAhead(double position, Course course) const {
     std::vector<FrameKey> keys;
@@ -211,9 +220,16 @@ std::vector<FrameKey> SceneExtractor::framesAhead(double position, Course course
             add(at);
         }
         const double next = keyPositionBeyond(at, course.forwards);
-        // In the middle of an interval both its ends are needed.
-        add((at + next) / 2);
-        at = next;
+        const double shown = shownPositionBeyond(at, course.forwards);
+        if (std::abs(shown - at) > std::abs(next - at)) {
+            // Key frames are denser than what is displayed: only those on either side of it are needed.
+            add(shown);
+            at = shown;
+        } else {
+            // In the middle of an interval both its ends are needed.
+            add((at + next) / 2);
+            at = next;
+        }
     }
     return keys;
 }

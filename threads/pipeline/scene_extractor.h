@@ -128,6 +128,7 @@ class SceneExtractor {
     std::vector<FrameKey> framesAhead(double position, Course course) const;
     std::vector<FrameKey> framesAt(double position) const;
     double keyPositionBeyond(double position, bool forwards) const;
+    double shownPositionBeyond(double position, bool forwards) const;
     void addLayers(std::size_t volume, SceneMeshes& result);
     void addSurfaces(std::size_t volume, double position, View view, SceneMeshes& result);
     ExtractOptions optionsFor(const Volume& volume, const Surface& surface, const View& view) const;
