@@ -71,7 +71,8 @@ void ViewerControls::press(const gl::KeyPressed& key, double now) {
     if (key.key != gl::Key::left && key.key != gl::Key::right) return;
     const bool forwards = key.key == gl::Key::right;
     playhead_.moveTo(key.shift ? playhead_.framesOn(now, forwards ? 1 : -1)
-                               : nextKeyPosition(keyPositions_, playhead_.position(now), forwards));
+                               : nextKeyPosition(keyPositions_, playhead_.position(now), forwards),
+                     forwards);
 }
 
 ViewerWish ViewerControls::type(char32_t character, double now) {

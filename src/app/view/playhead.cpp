@@ -29,8 +29,9 @@ void Playhead::pause(double now) {
     playing_ = false;
 }
 
-void Playhead::moveTo(double position) {
+void Playhead::moveTo(double position, bool forwards) {
     position_ = position;
+    forwards_ = forwards;
     playing_ = false;
 }
 

@@ -25,7 +25,9 @@ class Playhead {
     /// Stays at the displayed frame.
     void pause(double now);
     /// Pauses there.
-    void moveTo(double position);
+    void moveTo(double position) { moveTo(position, forwards_); }
+    /// The same, on the way in that direction.
+    void moveTo(double position, bool forwards);
 
     double position(double now) const;
     /// Seconds of playback from the beginning, for the camera's path.

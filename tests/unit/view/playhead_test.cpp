@@ -108,6 +108,16 @@ TEST(Playhead, MoveToIsExactAndPauses) {
     EXPECT_EQ(head.position(10), 0) << "the end runs on at the beginning";
 }
 
+TEST(Playhead, AStepTellsWhichWayItGoes) {
+    Playhead head(kFourSeconds);
+    head.moveTo(0.5, false);
+    EXPECT_FALSE(head.forwards());
+    head.moveTo(0.25);
+    EXPECT_FALSE(head.forwards());
+    head.moveTo(0.5, true);
+    EXPECT_TRUE(head.forwards());
+}
+
 TEST(Playhead, SaysWhenTheNextFrameIsDue) {
     Playhead head(kFourSeconds);
     head.play(0);
