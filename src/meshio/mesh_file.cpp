@@ -13,6 +13,7 @@
 #include <cstring>
 #include <limits>
 #include <locale>
+#include <optional>
 #include <ostream>
 #include <string>
 
@@ -83,17 +84,21 @@ void checkCounts(const std::filesystem::path& file, const SurfaceMesh& mesh) {
 
 }  // namespace
 
-MeshFormat meshFormat(const std::filesystem::path& file) {
+std::optional<MeshFormat> knownMeshFormat(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
     std::ranges::transform(extension, extension.begin(),
                            [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
     const auto found = std::ranges::find(kExtensions, extension);
-    if (found == kExtensions.end()) {
-        throw Error(extension.empty() ? "a mesh file needs an extension"
-                                      : "no mesh format has the extension " + extension,
-                    file.string(), "use .ply, .obj, .stl or .off");
-    }
+    if (found == kExtensions.end()) return std::nullopt;
     return static_cast<MeshFormat>(found - kExtensions.begin());
+}
+
+MeshFormat meshFormat(const std::filesystem::path& file) {
+    if (const auto format = knownMeshFormat(file)) return *format;
+    const std::string extension = file.extension().string();
+    throw Error(extension.empty() ? "a mesh file needs an extension"
+                                  : "no mesh format has the extension " + extension,
+                file.string(), "use .ply, .obj, .stl or .off");
 }
 
 const char* extensionOf(MeshFormat format) {

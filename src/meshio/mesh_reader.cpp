@@ -77,16 +77,24 @@ std::string withoutComments(std::istream& stream, glm::dvec3& origin) {
     return text;
 }
 
-/// Binary .stl is recognised by its size: 84 bytes and 50 a triangle. Text may begin with anything, and so
-/// may the header of a binary file.
-bool isBinaryStl(std::istream& stream, std::uint64_t fileBytes) {
+/// The triangles of a binary .stl, which is recognised by its size: 84 bytes and 50 a triangle. Text may
+/// begin with anything, and so may the header of a binary file.
+std::optional<std::uint64_t> binaryStlFacets(std::istream& stream, std::uint64_t fileBytes) {
     std::array<unsigned char, 4> count{};
     stream.seekg(kStlHeaderBytes);
     stream.read(reinterpret_cast<char*>(count.data()), count.size());
-    if (!stream) return false;
+    if (!stream) return std::nullopt;
     std::uint64_t triangles = 0;
     for (int i = 3; i >= 0; --i) triangles = triangles << 8 | count[static_cast<std::size_t>(i)];
-    return fileBytes == kStlHeaderBytes + 4 + 50 * triangles;
+    if (fileBytes != kStlHeaderBytes + 4 + 50 * triangles) return std::nullopt;
+    return triangles;
+}
+
+/// The triangles of a text .stl.
+std::uint64_t textStlFacets(std::istream& stream) {
+    std::uint64_t facets = 0;
+    for (std::string word; stream >> word;) facets += word == "endfacet";
+    return facets;
 }
 
 /// Text .stl does not say how long it is, but how it begins and ends.
@@ -142,63 +150,76 @@ std::ifstream openForReading(const std::filesystem::path& file) {
     return stream;
 }
 
-void readPly(std::istream& stream, const std::filesystem::path& file, SurfaceMesh& mesh) {
+void readPly(std::istream& stream, const std::filesystem::path& file, SurfaceMesh& mesh,
+             MeshFileLosses& losses) {
     const Declared declared = readPlyHeader(stream, mesh.origin);
     rewind(stream);
     SurfaceMeshImporter importer(mesh);
     parse(stream, MeshFormat::ply, true, OpenMesh::IO::Options::VertexNormal, importer, file);
+    losses.polygons = importer.polygons();
     if (declared.vertices != mesh.vertexCount() || declared.faces != importer.n_faces()) {
         throw Error("the mesh is damaged or ends early", file.string());
     }
 }
 
-void readOff(std::istream& stream, const std::filesystem::path& file, SurfaceMesh& mesh) {
+void readOff(std::istream& stream, const std::filesystem::path& file, SurfaceMesh& mesh,
+             MeshFileLosses& losses) {
     std::istringstream text(withoutComments(stream, mesh.origin));
     text.imbue(std::locale::classic());
     SurfaceMeshImporter importer(mesh);
     parse(text, MeshFormat::off, true, OpenMesh::IO::Options::VertexNormal, importer, file);
+    losses.polygons = importer.polygons();
 }
 
-void readObj(std::istream& stream, const std::filesystem::path& file, SurfaceMesh& mesh) {
+void readObj(std::istream& stream, const std::filesystem::path& file, SurfaceMesh& mesh,
+             MeshFileLosses& losses) {
     mesh.origin = originInFirstBytes(stream, kFirstLineBytes);
     SurfaceMeshImporter importer(mesh);
     parse(stream, MeshFormat::obj, false, OpenMesh::IO::Options::VertexNormal, importer, file);
+    losses.polygons = importer.polygons();
 }
 
-void readStl(std::istream& stream, const std::filesystem::path& file, SurfaceMesh& mesh) {
+void readStl(std::istream& stream, const std::filesystem::path& file, SurfaceMesh& mesh,
+             MeshFileLosses& losses) {
     const std::uint64_t fileBytes = std::filesystem::file_size(file);
-    const bool binary = isBinaryStl(stream, fileBytes);
+    const std::optional<std::uint64_t> facets = binaryStlFacets(stream, fileBytes);
+    const bool binary = facets.has_value();
     rewind(stream);
     if (!binary && !isWholeTextStl(stream, fileBytes)) {
         throw Error("the mesh is damaged or ends early", file.string());
     }
     rewind(stream);
+    const std::uint64_t declared = binary ? *facets : textStlFacets(stream);
+    rewind(stream);
     mesh.origin = originInFirstBytes(stream, binary ? kStlHeaderBytes : kFirstLineBytes);
     SurfaceMeshImporter importer(mesh);
     const auto features = binary ? OpenMesh::IO::Options::Binary : OpenMesh::IO::Options::Default;
     parse(stream, MeshFormat::stl, binary, features, importer, file);
+    losses.refused = declared - std::min<std::uint64_t>(declared, importer.n_faces());
 }
 
 }  // namespace
 
-SurfaceMesh readMesh(const std::filesystem::path& file) {
+SurfaceMesh readMesh(const std::filesystem::path& file, MeshFileLosses* losses) {
     const MeshFormat format = meshFormat(file);
     std::ifstream stream = openForReading(file);
     SurfaceMesh mesh;
+    MeshFileLosses read;
     switch (format) {
         case MeshFormat::ply:
-            readPly(stream, file, mesh);
+            readPly(stream, file, mesh, read);
             break;
         case MeshFormat::obj:
-            readObj(stream, file, mesh);
+            readObj(stream, file, mesh, read);
             break;
         case MeshFormat::stl:
-            readStl(stream, file, mesh);
+            readStl(stream, file, mesh, read);
             break;
         case MeshFormat::off:
-            readOff(stream, file, mesh);
+            readOff(stream, file, mesh, read);
             break;
     }
+    if (losses != nullptr) *losses = read;
     return mesh;
 }
 

@@ -87,6 +87,7 @@ OpenMesh::FaceHandle SurfaceMeshImporter::add_face(const VHandles& vertices) {
         ++brokenFaces_;
         return OpenMesh::FaceHandle();
     }
+    if (vertices.size() > 3) ++polygons_;
     for (std::size_t i = 2; i < vertices.size(); ++i) {
         for (const auto vertex : {vertices[0], vertices[i - 1], vertices[i]}) {
             mesh_.triangles.push_back(static_cast<std::uint32_t>(vertex.idx()));

@@ -72,6 +72,8 @@ class SurfaceMeshImporter final : public OpenMesh::IO::ImporterT<OpenMeshKernel>
     std::size_t n_vertices() const override { return mesh_.vertexCount(); }
     std::size_t n_faces() const override { return faces_; }
 
+    /// Faces with more than three corners.
+    std::size_t polygons() const { return polygons_; }
     /// Faces that name a vertex which is not there, or fewer than three.
     std::size_t brokenFaces() const { return brokenFaces_; }
     /// Drops the normals unless every vertex was given one.
@@ -81,6 +83,7 @@ class SurfaceMeshImporter final : public OpenMesh::IO::ImporterT<OpenMeshKernel>
     OpenMeshKernel kernel_;
     SurfaceMesh& mesh_;
     std::size_t faces_ = 0;
+    std::size_t polygons_ = 0;
     std::size_t brokenFaces_ = 0;
     std::vector<bool> hasNormal_;
 };

@@ -187,6 +187,24 @@ TEST(MeshFileReader, PolygonsBecomeFansAndForeignCommentsAreSkipped) {
     EXPECT_EQ(mesh.origin, glm::dvec3(0));
 }
 
+TEST(MeshFileReader, SplitAndRefusedFacesAreCounted) {
+    const ScratchFolder folder;
+    std::ofstream(folder / "mixed.obj")
+        << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 2 0\nf 1 2 3 4\nf 1 2 3\nf 1 2 3 4 5\n";
+    MeshFileLosses losses;
+    EXPECT_EQ(readMesh(folder / "mixed.obj", &losses).triangleCount(), 6u);
+    EXPECT_EQ(losses.polygons, 2u);
+    EXPECT_EQ(losses.refused, 0u);
+    SurfaceMesh mesh = makeTetrahedron();
+    mesh.triangles.insert(mesh.triangles.end(), {0, 0, 1});
+    for (const MeshEncoding encoding : {MeshEncoding::binary, MeshEncoding::text}) {
+        writeMesh(folder / "flat.stl", mesh, {.encoding = encoding});
+        EXPECT_EQ(readMesh(folder / "flat.stl", &losses).triangleCount(), 4u);
+        EXPECT_EQ(losses.polygons, 0u);
+        EXPECT_EQ(losses.refused, 1u);
+    }
+}
+
 TEST(MeshFileReader, FacesWithoutVerticesAreRefused) {
     const ScratchFolder folder;
     std::ofstream(folder / "bad.off") << "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 7\n";
