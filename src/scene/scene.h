@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/field_color.h"
+#include "scene/illustrative_style.h"
 #include "scene/layer_style.h"
 #include "scene/shell_opacity.h"
 
@@ -57,6 +58,7 @@ struct Surface {
     std::optional<ShellOpacity> shell{};
     /// Colour by a value at each point takes the place of `color`.
     std::optional<FieldColor> fieldColor{};
+    bool secondary = false;  ///< in the style "illustrative": see IllustrativeStyle
 
     bool opaque() const { return opacity >= 1 && !shell; }
 
@@ -101,6 +103,18 @@ struct Volume {
     std::vector<Surface> surfaces;
 
     friend bool operator==(const Volume&, const Volume&) = default;
+};
+
+/// A mesh from a file, which does not change with time. Clip planes leave it whole.
+struct MeshObject {
+    std::string name;
+    std::filesystem::path file;  ///< .ply, .obj, .stl or .off; as for Volume::series
+    Placement place{};
+    LinearColor color{0.799102724f};  ///< #e7e7e7
+    float opacity = 1;
+    bool secondary = false;  ///< as for Surface
+
+    friend bool operator==(const MeshObject&, const MeshObject&) = default;
 };
 
 /// A moment of the scene: seconds on the clock of the series, or a date that every series translates by
@@ -192,15 +206,17 @@ struct Quality {
 
 /// What the user describes: scene file, version 1.
 struct Scene {
-    std::vector<Volume> volumes;
+    std::vector<Volume> volumes;  ///< at least one, or a mesh
+    std::vector<MeshObject> meshes{};
     Timeline time;
     Camera camera;
     ImageSettings image;
     Lighting lighting;
     Quality quality;
     Transparency transparency;
-    std::optional<LayerStyle> layers{};  ///< the style "layers": its volume exists
-    std::vector<ClipPlane> clip;         ///< of all volumes, in world coordinates
+    std::optional<LayerStyle> layers{};               ///< the style "layers": its volume exists
+    std::optional<IllustrativeStyle> illustrative{};  ///< that style; never both
+    std::vector<ClipPlane> clip;                      ///< of all volumes, in world coordinates
     /// Keys that were understood but change nothing in this version, a sentence each.
     std::vector<std::string> notes;
 

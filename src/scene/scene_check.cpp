@@ -17,7 +17,7 @@ using Pointer = json::json_pointer;
 constexpr std::size_t kMostErrors = 100;
 
 /// Harmless values of required keys, by the pointer with `*` for the place in an array.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kHarmless = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kHarmless = {{
     {"/version", "1"},
     {"/volumes", R"([{"series": "replaced.vdb", "surfaces": [{"iso": 0}]}])"},
     {"/volumes/*", R"({"series": "replaced.vdb", "surfaces": [{"iso": 0}]})"},
@@ -26,6 +26,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kHarmless
     {"/volumes/*/surfaces/*", R"({"iso": 0})"},
     {"/volumes/*/surfaces/*/iso", "0"},
     {"/volumes/*/surfaces/*/opacity", "1"},
+    {"/meshes/*", R"({"file": "replaced.ply"})"},
+    {"/meshes/*/file", R"("replaced.ply")"},
 }};
 
 bool isIndex(const std::string& token) {

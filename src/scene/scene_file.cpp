@@ -44,6 +44,7 @@ Surface readSurface(const JsonNode& node, const std::filesystem::path& baseFolde
     }
     if (const auto color = node.find("color")) readSurfaceColor(*color, baseFolder, surface);
     if (const auto opacity = node.find("opacity")) readOpacity(*opacity, surface);
+    if (const auto secondary = node.find("secondary")) surface.secondary = secondary->boolean();
     return surface;
 }
 
@@ -114,6 +115,21 @@ Volume readVolume(const JsonNode& node, const std::filesystem::path& baseFolder)
     for (std::size_t i = 0; i < surfaces.size(); ++i)
         volume.surfaces.push_back(readSurface(surfaces.item(i), baseFolder));
     return volume;
+}
+
+MeshObject readMeshObject(const JsonNode& node, const std::filesystem::path& baseFolder) {
+    node.object();
+    MeshObject mesh;
+    const JsonNode file = node.require("file");
+    if (file.text().empty()) file.failExpected("the path of a mesh: .ply, .obj, .stl or .off");
+    mesh.file = (baseFolder / file.text()).lexically_normal();
+    const auto name = node.find("name");
+    mesh.name = name ? name->text() : mesh.file.stem().string();
+    if (const auto place = node.find("place")) mesh.place = readPlacement(*place);
+    if (const auto color = node.find("color")) mesh.color = readColor(*color);
+    if (const auto opacity = node.find("opacity")) mesh.opacity = static_cast<float>(opacity->number(kShare));
+    if (const auto secondary = node.find("secondary")) mesh.secondary = secondary->boolean();
+    return mesh;
 }
 
 SceneTime readTime(const JsonNode& node) {
@@ -257,17 +273,25 @@ void refuseUnavailable(const JsonNode& root) {
     }
 }
 
+void readContents(const JsonNode& root, const std::filesystem::path& baseFolder, Scene& scene) {
+    const auto meshes = root.find("meshes");
+    for (std::size_t i = 0; meshes && i < meshes->size(); ++i)
+        scene.meshes.push_back(readMeshObject(meshes->item(i), baseFolder));
+    const auto volumes = scene.meshes.empty() ? std::optional(root.require("volumes")) : root.find("volumes");
+    if (!volumes) return;
+    if (volumes->size() == 0 && scene.meshes.empty())
+        volumes->fail("expected at least one volume, found none");
+    for (std::size_t i = 0; i < volumes->size(); ++i)
+        scene.volumes.push_back(readVolume(volumes->item(i), baseFolder));
+}
+
 Scene readScene(const JsonNode& root, const std::filesystem::path& baseFolder) {
     root.object();
     root.require("version").integer(1, 1);
     if (const auto schema = root.find("$schema")) schema->text();
     refuseUnavailable(root);
     Scene scene;
-    const JsonNode volumes = root.require("volumes");
-    if (volumes.size() == 0) volumes.fail("expected at least one volume, found none");
-    for (std::size_t i = 0; i < volumes.size(); ++i) {
-        scene.volumes.push_back(readVolume(volumes.item(i), baseFolder));
-    }
+    readContents(root, baseFolder, scene);
     if (const auto time = root.find("time")) scene.time = readTimeline(*time);
     if (const auto camera = root.find("camera")) scene.camera = readCamera(*camera);
     if (const auto image = root.find("image")) scene.image = readImage(*image);

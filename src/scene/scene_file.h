@@ -26,5 +26,7 @@ Scene parseScene(std::string_view text, const std::filesystem::path& baseFolder,
 /// gives an equal scene where every colour is one that sRGB hex can express; other colours become the
 /// nearest. `scene` must be one that a scene file may describe.
 std::string toJson(const Scene& scene, const std::filesystem::path& baseFolder = {});
+/// The value of its key "style".
+std::string toJson(const IllustrativeStyle& style);
 
 }  // namespace isoglass

@@ -13,16 +13,18 @@ namespace {
 
 using Key = std::string_view;
 
-constexpr std::array kScene{Key("$schema"), Key("version"), Key("volumes"),  Key("time"),
-                            Key("camera"),  Key("image"),   Key("lighting"), Key("transparency"),
-                            Key("detail"),  Key("quality"), Key("clip"),     Key("terrain"),
-                            Key("ocean"),   Key("sky"),     Key("style")};
+constexpr std::array kScene{Key("$schema"),      Key("version"), Key("volumes"), Key("meshes"),
+                            Key("time"),         Key("camera"),  Key("image"),   Key("lighting"),
+                            Key("transparency"), Key("detail"),  Key("quality"), Key("clip"),
+                            Key("terrain"),      Key("ocean"),   Key("sky"),     Key("style")};
 constexpr std::array kVolume{Key("name"), Key("series"),   Key("grid"), Key("place"),
                              Key("time"), Key("boundary"), Key("clip"), Key("surfaces")};
 constexpr std::array kClip{Key("plane"), Key("cap"), Key("mesh"), Key("keep"), Key("method")};
 constexpr std::array kPlace{Key("translate"), Key("rotate"), Key("scale")};
 constexpr std::array kClock{Key("offset"), Key("scale")};
-constexpr std::array kSurface{Key("iso"), Key("inside"), Key("color"), Key("opacity")};
+constexpr std::array kSurface{Key("iso"), Key("inside"), Key("color"), Key("opacity"), Key("secondary")};
+constexpr std::array kMesh{Key("name"),  Key("file"),    Key("place"),
+                           Key("color"), Key("opacity"), Key("secondary")};
 constexpr std::array kColor{Key("by"), Key("series"), Key("map"), Key("range")};
 constexpr std::array kOpacity{Key("model"),     Key("opacity"),       Key("extinction"), Key("thickness"),
                               Key("iso_width"), Key("max_thickness"), Key("power")};
@@ -35,8 +37,27 @@ constexpr std::array kTransparency{Key("method"), Key("layers"), Key("reproducib
 constexpr std::array kDetail{Key("pixels"), Key("error_pixels")};
 constexpr std::array kQuality{Key("frame_ms"), Key("exact_order")};
 
-constexpr std::array kStyle{Key("kind"),   Key("volume"),    Key("show"), Key("count"),     Key("first"),
-                            Key("colors"), Key("opacities"), Key("step"), Key("silhouette")};
+/// Of all kinds of styles.
+constexpr std::array kStyle{Key("kind"),
+                            Key("volume"),
+                            Key("show"),
+                            Key("count"),
+                            Key("first"),
+                            Key("colors"),
+                            Key("opacities"),
+                            Key("step"),
+                            Key("silhouette"),
+                            Key("alpha"),
+                            Key("beta"),
+                            Key("depth_threshold"),
+                            Key("normal_threshold"),
+                            Key("hatch_angle"),
+                            Key("hatch_size"),
+                            Key("hatch_cross"),
+                            Key("light"),
+                            Key("paper"),
+                            Key("front"),
+                            Key("back")};
 
 constexpr std::array kFormat{
     FormatObject{"", kScene},
@@ -47,6 +68,8 @@ constexpr std::array kFormat{
     FormatObject{"/volumes/*/surfaces/*", kSurface},
     FormatObject{"/volumes/*/surfaces/*/color", kColor},
     FormatObject{"/volumes/*/surfaces/*/opacity", kOpacity},
+    FormatObject{"/meshes/*", kMesh},
+    FormatObject{"/meshes/*/place", kPlace},
     FormatObject{"/time", kTime},
     FormatObject{"/camera", kCamera},
     FormatObject{"/camera/path/*", kCameraKey},

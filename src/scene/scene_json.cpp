@@ -27,7 +27,24 @@ Json surface(const Surface& surface, const std::filesystem::path& baseFolder) {
     return {{"iso", surface.iso},
             {"inside", surface.inside == Inside::above ? "above" : "below"},
             {"color", surfaceColorJson(surface, baseFolder)},
-            {"opacity", opacityJson(surface)}};
+            {"opacity", opacityJson(surface)},
+            {"secondary", surface.secondary}};
+}
+
+Json placement(const Placement& place) {
+    const glm::dvec4& rotate = place.rotate;
+    return {{"translate", vector(place.translate)},
+            {"rotate", Json::array({rotate.x, rotate.y, rotate.z, rotate.w})},
+            {"scale", vector(place.scale)}};
+}
+
+Json mesh(const MeshObject& mesh, const std::filesystem::path& baseFolder) {
+    return {{"name", mesh.name},
+            {"file", relativeSeriesPath(mesh.file, baseFolder)},
+            {"place", placement(mesh.place)},
+            {"color", hexFromLinear(mesh.color)},
+            {"opacity", shortestDouble(mesh.opacity)},
+            {"secondary", mesh.secondary}};
 }
 
 Json volume(const Volume& volume, const std::filesystem::path& baseFolder) {
@@ -38,10 +55,7 @@ Json volume(const Volume& volume, const std::filesystem::path& baseFolder) {
             json["series"].push_back(relativeSeriesPath(file, baseFolder));
     }
     if (!volume.grid.empty()) json["grid"] = volume.grid;
-    const glm::dvec4& rotate = volume.place.rotate;
-    json["place"] = {{"translate", vector(volume.place.translate)},
-                     {"rotate", Json::array({rotate.x, rotate.y, rotate.z, rotate.w})},
-                     {"scale", vector(volume.place.scale)}};
+    json["place"] = placement(volume.place);
     json["time"] = {{"offset", volume.time.offset}, {"scale", volume.time.scale}};
     json["boundary"] = volume.closed ? "closed" : "open";
     json["clip"] = clipJson(volume.clip);
@@ -77,6 +91,8 @@ std::string toJson(const Scene& scene, const std::filesystem::path& baseFolder) 
     json["version"] = 1;
     json["volumes"] = Json::array();
     for (const Volume& each : scene.volumes) json["volumes"].push_back(volume(each, baseFolder));
+    json["meshes"] = Json::array();
+    for (const MeshObject& each : scene.meshes) json["meshes"].push_back(mesh(each, baseFolder));
     json["time"] = {{"from", time(scene.time.from)},
                     {"to", time(scene.time.to)},
                     {"duration", scene.time.duration},
@@ -100,6 +116,7 @@ std::string toJson(const Scene& scene, const std::filesystem::path& baseFolder) 
     if (quality.frameMilliseconds) json["quality"]["frame_ms"] = *quality.frameMilliseconds;
     json["quality"]["exact_order"] = quality.exactOrder;
     if (scene.layers) json["style"] = styleJson(*scene.layers);
+    if (scene.illustrative) json["style"] = styleJson(*scene.illustrative);
     return json.dump(2) + "\n";
 }
 

@@ -3,10 +3,15 @@
 #include "scene/color.h"
 #include "scene/color_json.h"
 #include "scene/opacity_json.h"
+#include "scene/scene_file.h"
 #include "scene/scene_format.h"
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <span>
 
 namespace isoglass {
 
@@ -33,13 +38,22 @@ void readList(const JsonNode& node, Store store) {
     for (std::size_t i = 0; i < node.size(); ++i) store(node.item(i));
 }
 
-}  // namespace
+/// Keys of one kind do not belong to another.
+void checkKeys(const JsonNode& node, std::span<const Word> keys, Word kind) {
+    for (const auto& [key, value] : node.value().items()) {
+        if (std::ranges::find(keys, key) == keys.end())
+            node.find(key)->fail(inQuotes(key) + " does not belong to the style " + inQuotes(kind),
+                                 "its keys are: " + listWords(keys));
+    }
+}
 
-void readStyle(const JsonNode& node, Scene& scene) {
-    node.object();
-    const JsonNode kind = node.require("kind");
-    if (kind.choice(kKinds) != 0)
-        kind.failUnavailable("the style " + inQuotes(kind.text()), "choose \"layers\", or remove \"style\"");
+LayerStyle readLayers(const JsonNode& node, const Scene& scene) {
+    constexpr std::array kKeys{Word("kind"),      Word("volume"), Word("show"),
+                               Word("count"),     Word("first"),  Word("colors"),
+                               Word("opacities"), Word("step"),   Word("silhouette")};
+    checkKeys(node, kKeys, kKinds[0]);
+    if (scene.volumes.empty())
+        node.fail("the style \"layers\" needs a volume", "add one, or remove \"style\"");
     LayerStyle style;
     if (const auto volume = node.find("volume")) style.volume = readVolume(*volume, scene);
     if (const auto show = node.find("show")) style.show = static_cast<LayerStyle::Show>(show->choice(kShows));
@@ -65,7 +79,86 @@ void readStyle(const JsonNode& node, Scene& scene) {
             silhouette->fail("\"silhouette\" belongs to \"silhouettes\"", "show those, or remove it");
         style.silhouette = silhouette->number({.low = 0, .high = 1, .openLow = true});
     }
-    scene.layers = std::move(style);
+    return style;
+}
+
+IllustrativeStyle readIllustrative(const JsonNode& node) {
+    constexpr std::array kKeys{Word("kind"),
+                               Word("alpha"),
+                               Word("beta"),
+                               Word("depth_threshold"),
+                               Word("normal_threshold"),
+                               Word("hatch_angle"),
+                               Word("hatch_size"),
+                               Word("hatch_cross"),
+                               Word("light"),
+                               Word("paper"),
+                               Word("front"),
+                               Word("back")};
+    checkKeys(node, kKeys, kKinds[1]);
+    IllustrativeStyle style;
+    const auto read = [&](Word key, float& value, const NumberRange& range) {
+        if (const auto found = node.find(key)) value = static_cast<float>(found->number(range));
+    };
+    read("alpha", style.alpha, {.low = 0, .high = 1});
+    style.beta = std::min(style.beta, style.alpha);
+    read("beta", style.beta, {.low = 0, .high = style.alpha});
+    read("depth_threshold", style.depthThreshold, {.low = 0, .high = 1e6, .openLow = true});
+    read("normal_threshold", style.normalThreshold, {.low = -4, .high = 4});
+    read("hatch_angle", style.hatchAngle, {.low = -360, .high = 360});
+    read("hatch_size", style.hatchSize, {.low = 1, .high = 1024});
+    read("hatch_cross", style.hatchCross, {.low = 0, .high = 1});
+    if (const auto light = node.find("light")) {
+        style.light = glm::vec3(light->vector());
+        const float length = glm::length(style.light);
+        if (!(length > 0) || !std::isfinite(length))
+            light->fail("expected a direction, found a vector of length 0 or too large");
+    }
+    const auto readColor = [&](Word key, glm::vec3& color) {
+        if (const auto found = node.find(key)) color = isoglass::readColor(*found);
+    };
+    readColor("paper", style.paper);
+    readColor("front", style.front);
+    readColor("back", style.back);
+    return style;
+}
+
+}  // namespace
+
+void readStyle(const JsonNode& node, Scene& scene) {
+    node.object();
+    const JsonNode kind = node.require("kind");
+    switch (kind.choice(kKinds)) {
+        case 0:
+            scene.layers = readLayers(node, scene);
+            return;
+        case 1:
+            scene.illustrative = readIllustrative(node);
+            return;
+        default:
+            kind.failUnavailable("the style " + inQuotes(kind.text()),
+                                 "choose \"layers\" or \"illustrative\", or remove \"style\"");
+    }
+}
+
+nlohmann::ordered_json styleJson(const IllustrativeStyle& style) {
+    return {{"kind", kKinds[1]},
+            {"alpha", shortestDouble(style.alpha)},
+            {"beta", shortestDouble(style.beta)},
+            {"depth_threshold", shortestDouble(style.depthThreshold)},
+            {"normal_threshold", shortestDouble(style.normalThreshold)},
+            {"hatch_angle", shortestDouble(style.hatchAngle)},
+            {"hatch_size", shortestDouble(style.hatchSize)},
+            {"hatch_cross", shortestDouble(style.hatchCross)},
+            {"light",
+             {shortestDouble(style.light.x), shortestDouble(style.light.y), shortestDouble(style.light.z)}},
+            {"paper", hexFromLinear(style.paper)},
+            {"front", hexFromLinear(style.front)},
+            {"back", hexFromLinear(style.back)}};
+}
+
+std::string toJson(const IllustrativeStyle& style) {
+    return styleJson(style).dump();
 }
 
 nlohmann::ordered_json styleJson(const LayerStyle& style) {

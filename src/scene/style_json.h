@@ -12,5 +12,6 @@ void readStyle(const JsonNode& node, Scene& scene);
 
 /// The same as JSON.
 nlohmann::ordered_json styleJson(const LayerStyle& style);
+nlohmann::ordered_json styleJson(const IllustrativeStyle& style);
 
 }  // namespace isoglass

@@ -201,6 +201,7 @@ TEST(SceneErrors, EveryKnownKeyIsLookedAt) {
                 scene[json::json_pointer(pointer)] = {{"model", "constant"}, {"opacity", 1}};
             if (object.pointer == "/camera/path/*") scene[json::json_pointer(pointer)] = {{"at", 0}};
             if (object.pointer == "/camera/path/*") scene["camera"]["eye"] = {3, 2, 1};
+            if (object.pointer.starts_with("/meshes/*")) scene["meshes"][0]["file"] = "a.ply";
             if (object.pointer == "/style") scene["style"] = {{"kind", "layers"}};
             scene[json::json_pointer(place)] = nullptr;
             const std::string message = messageOf(scene.dump());

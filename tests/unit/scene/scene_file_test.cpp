@@ -149,6 +149,30 @@ TEST(SceneFile, RoundTripThroughJsonKeepsEverything) {
     }
 }
 
+TEST(SceneFile, MeshesMayTakeThePlaceOfVolumes) {
+    const Scene scene = parse(R"({"version": 1, "meshes": [
+        {"file": "../data/bunny.ply"},
+        {"name": "core", "file": "/data/core.stl", "place": {"translate": [1, 2, 3], "scale": [2, 2, -2]},
+         "color": "#ff0000", "opacity": 0.5, "secondary": true}]})");
+    MeshObject bunny{.name = "bunny", .file = "data/bunny.ply"};
+    MeshObject core{.name = "core", .file = "/data/core.stl", .color = {1, 0, 0}, .opacity = 0.5f};
+    core.place = {.translate = {1, 2, 3}, .scale = {2, 2, -2}};
+    core.secondary = true;
+    EXPECT_EQ(scene.meshes, (std::vector{bunny, core}));
+    EXPECT_TRUE(scene.volumes.empty());
+    EXPECT_EQ(parseScene(toJson(scene), "", "round trip"), scene);
+    EXPECT_THROW(parse(R"({"version": 1, "meshes": []})"), Error);
+    EXPECT_THROW(parse(R"({"version": 1, "meshes": [{"color": "#ff0000"}]})"), Error);
+}
+
+TEST(SceneFile, SurfacesMayBeSecondary) {
+    const Scene scene = parse(R"({"version": 1, "volumes": [{"series": "a.vdb",
+        "surfaces": [{"iso": 2}, {"iso": 3, "secondary": true}]}]})");
+    EXPECT_FALSE(scene.volumes[0].surfaces[0].secondary);
+    EXPECT_TRUE(scene.volumes[0].surfaces[1].secondary);
+    EXPECT_EQ(parseScene(toJson(scene), "", "round trip"), scene);
+}
+
 TEST(SceneFile, WrittenPathsAreRelativeToTheFolderOfTheScene) {
     const Scene scene = parse(kFull);
     const std::string text = toJson(scene, "scenes");
@@ -157,7 +181,7 @@ TEST(SceneFile, WrittenPathsAreRelativeToTheFolderOfTheScene) {
 }
 
 TEST(SceneFile, WrittenNumbersHaveNoRoundingTail) {
-    EXPECT_NE(toJson(parse(kFull)).find("\"opacity\": 0.3\n"), std::string::npos) << toJson(parse(kFull));
+    EXPECT_NE(toJson(parse(kFull)).find("\"opacity\": 0.3,\n"), std::string::npos) << toJson(parse(kFull));
 }
 
 TEST(SceneFile, LoadsRelativeToItsOwnFolder) {

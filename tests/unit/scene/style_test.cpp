@@ -1,7 +1,10 @@
+#include "base/error.h"
 #include "scene/color.h"
 #include "scene/scene_file.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace isoglass {
 namespace {
@@ -35,6 +38,59 @@ TEST(StyleJson, EveryKeyIsReadAndWritten) {
     for (const Scene& scene : {composed, silhouettes, parseWith(R"({"kind": "layers", "show": "nth"})"),
                                parseWith(R"({"kind": "layers", "show": "blend"})")})
         EXPECT_EQ(parseScene(toJson(scene), "", "round trip"), scene) << toJson(scene);
+}
+
+TEST(StyleJson, EveryKeyOfAnIllustrationIsReadAndWritten) {
+    EXPECT_EQ(parseWith(R"({"kind": "illustrative"})").illustrative, IllustrativeStyle());
+    const Scene scene =
+        parseWith(R"({"kind": "illustrative", "alpha": 0.5, "beta": 0.25, "depth_threshold": 2,
+        "normal_threshold": 3.5, "hatch_angle": -45, "hatch_size": 6, "hatch_cross": 0.75, "light": [0, 1, 2],
+        "paper": "#ffffff", "front": "#000080", "back": "#00ff00"})");
+    const IllustrativeStyle style{.alpha = 0.5f,
+                                  .beta = 0.25f,
+                                  .depthThreshold = 2,
+                                  .normalThreshold = 3.5f,
+                                  .hatchAngle = -45,
+                                  .hatchSize = 6,
+                                  .hatchCross = 0.75f,
+                                  .light = {0, 1, 2},
+                                  .paper = *linearFromHex("#ffffff"),
+                                  .front = *linearFromHex("#000080"),
+                                  .back = *linearFromHex("#00ff00")};
+    EXPECT_EQ(scene.illustrative, style);
+    EXPECT_FALSE(scene.layers);
+    EXPECT_EQ(parseScene(toJson(scene), "", "round trip"), scene) << toJson(scene);
+    EXPECT_EQ(parseWith(toJson(style)).illustrative, style);
+}
+
+TEST(StyleJson, DefaultColoursAreThoseThatTheSchemaNames) {
+    const IllustrativeStyle style;
+    EXPECT_EQ(style.paper, *linearFromHex("#f5f4f0"));
+    EXPECT_EQ(style.back, *linearFromHex("#c42020"));
+}
+
+/// 0 < beta < alpha < 1 in the paper (2).
+TEST(StyleJson, BetaIsAtMostAlpha) {
+    EXPECT_EQ(parseWith(R"({"kind": "illustrative", "alpha": 0.1})").illustrative->beta, 0.1f);
+    EXPECT_THROW(parseWith(R"({"kind": "illustrative", "alpha": 0.1, "beta": 0.2})"), Error);
+}
+
+TEST(StyleJson, KeysOfAnotherKindAreRefused) {
+    EXPECT_THROW(parseWith(R"({"kind": "illustrative", "count": 2})"), Error);
+    EXPECT_THROW(parseWith(R"({"kind": "layers", "alpha": 0.5})"), Error);
+    EXPECT_THROW(parseWith(R"({"kind": "illustrative", "light": [0, 0, 0]})"), Error);
+}
+
+/// A window of depth n/z, n = 1, over a plane whose distance grows by 3 pixel sizes a pixel at z = 30:
+/// Sobel's sum (weights 1, 2, 1 over two pixels) gives 8 times the derivative.
+TEST(IllustrativeStyle, ThePapersThresholdHasItsMeaning) {
+    constexpr int kRows = 720;
+    constexpr double kFov = 30, kZ = 30;
+    const double pixel = kZ * 2 * std::tan(kFov * M_PI / 360) / kRows;
+    const double sobel = 8 * (1 / kZ - 1 / (kZ + 1e-6 * 3 * pixel)) / 1e-6;
+    EXPECT_NEAR(depthThresholdFromPaper(sobel, kZ, kRows, kFov), 3, 1e-6);
+    // The default: a near plane a thirtieth of the distance away, 720 rows under 30 degrees.
+    EXPECT_NEAR(depthThresholdFromPaper(0.001, 30, kRows, kFov), IllustrativeStyle().depthThreshold, 0.05);
 }
 
 TEST(LayerStyle, LastColourAndOpacityStay) {
