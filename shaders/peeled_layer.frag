@@ -1,16 +1,8 @@
 #version 450 core
 #include "lib/emission.glsl"
+#include "lib/peel.glsl"
 
 layout(location = 0) out vec4 layerColor;
-
-// Unit of the depth of the layer before; the first layer has none.
-#ifdef PREVIOUS_LAYER
-layout(binding = PREVIOUS_LAYER) uniform sampler2D previousDepth;
-
-bool isPeeled() { return gl_FragCoord.z >= texelFetch(previousDepth, ivec2(gl_FragCoord.xy), 0).r; }
-#else
-bool isPeeled() { return false; }
-#endif
 
 void main() {
     if (isPeeled()) discard;

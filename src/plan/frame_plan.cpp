@@ -13,10 +13,22 @@ namespace {
 using enum PassKind;
 using Method = TransparencyMethod;
 
-constexpr std::array<std::string_view, kPassKindCount> kNames{
-    "opaque",       "layers",       "back-face depth", "blending",       "attenuation and emission",
-    "integer sums", "peeled layer", "layer blend",     "fragment lists", "resolve",
-    "accumulation", "presentation"};
+constexpr std::array<std::string_view, kPassKindCount> kNames{"opaque",
+                                                              "layers",
+                                                              "first surface",
+                                                              "second surface",
+                                                              "secondary geometry",
+                                                              "illustration",
+                                                              "back-face depth",
+                                                              "blending",
+                                                              "attenuation and emission",
+                                                              "integer sums",
+                                                              "peeled layer",
+                                                              "layer blend",
+                                                              "fragment lists",
+                                                              "resolve",
+                                                              "accumulation",
+                                                              "presentation"};
 
 std::pair<Method, std::string> chooseMethod(const PlanInput& input) {
     if (input.method != Method::automatic) return {input.method, "the scene asks for it"};
@@ -66,6 +78,17 @@ void planComposition(FramePlan& plan, const PlanInput& input) {
     }
 }
 
+void planIllustration(FramePlan& plan, const PlanInput& input) {
+    if (input.primarySurfaces > 0) {
+        add(plan, firstSurface,
+            "silhouettes and hatching come from the normals and distances that are seen first");
+        add(plan, secondSurface, "what the first surface hides is drawn as silhouettes");
+    }
+    if (input.secondarySurfaces > 0)
+        add(plan, secondaryGeometry, "secondary geometry is visible behind the surfaces, darker behind each");
+    add(plan, illustration, "finds silhouettes, hatches, and puts the drawing together");
+}
+
 /// One sample a pixel is the center. Four are drawn at twice the size, so the geometry is walked once;
 /// more than that are averaged over pictures, 4 samples each where they come in fours.
 void planSamples(FramePlan& plan, const PlanInput& input) {
@@ -81,14 +104,24 @@ void planSamples(FramePlan& plan, const PlanInput& input) {
     add(plan, presentation, "applies exposure and the sRGB curve to the linear image");
 }
 
+bool isIllustrative(PassKind kind) {
+    return kind == firstSurface || kind == secondSurface || kind == secondaryGeometry || kind == illustration;
+}
+
 std::string whyNot(PassKind kind, const FramePlan& plan, const PlanInput& input) {
     if (input.unchanged) return "nothing has changed since the last frame";
-    if (kind == opaque) return "no opaque surface is visible, and the background needs no drawing";
+    if (kind == opaque && !input.illustrative)
+        return "no opaque surface is visible, and the background needs no drawing";
     if (kind == layers) return "no volume is shown in layers";
+    if (kind == illustration || (isIllustrative(kind) && !input.illustrative))
+        return "the style is not illustrative";
+    if (kind == secondaryGeometry) return "no secondary geometry is visible";
+    if (isIllustrative(kind)) return "no surface is visible that is not secondary";
     if (kind == resolve) return "the linear image comes first";
     if (kind == accumulation || kind == presentation) {
         return "one picture is enough, and nobody asks for the linear image";
     }
+    if (input.illustrative) return "the illustrative style draws lines, not lit surfaces";
     if (input.semiTransparentSurfaces == 0) return "no semi-transparent surface is visible";
     const bool sums = plan.method == Method::threePass || plan.method == Method::fourPass;
     if (sums && kind == integerSums) return "float sums are enough unless the frame must be reproducible";
@@ -127,6 +160,7 @@ FramePlan planFrame(const PlanInput& input) {
                     ? "rays count the layers of an iso-surface in the samples of two key frames"
                     : "rays count the layers of an iso-surface in the samples of one key frame");
         }
+        if (input.illustrative) planIllustration(plan, input);
         if (input.semiTransparentSurfaces > 0) planComposition(plan, input);
         planSamples(plan, input);
     }

@@ -12,6 +12,10 @@ namespace isoglass {
 enum class PassKind {
     opaque,                  ///< background and opaque surfaces: color and the depth that stays
     layers,                  ///< an iso-surface's layers by rays through the samples, over what is opaque
+    firstSurface,            ///< illustrative: normal and distance of what is seen first
+    secondSurface,           ///< illustrative: the same of what is seen behind that
+    secondaryGeometry,       ///< illustrative: color and brightness of what stays visible behind both
+    illustration,            ///< illustrative: lines and hatching, from what the three passes found
     backFaceDepth,           ///< nearest of opaque depth and semi-transparent back faces
     blending,                ///< semi-transparent fragments over each other in the order of the draws
     attenuationAndEmission,  ///< product of (1 - opacity) and sum of opacity * color in one walk
@@ -23,7 +27,7 @@ enum class PassKind {
     accumulation,            ///< the same without exposure and sRGB, added to the linear image
     presentation,            ///< linear image to exposure and sRGB
 };
-inline constexpr int kPassKindCount = 12;
+inline constexpr int kPassKindCount = 16;
 
 /// The name that people read, e.g. "back-face depth".
 std::string_view passName(PassKind kind);
@@ -33,6 +37,9 @@ struct PlanInput {
     int opaqueSurfaces = 0;           ///< visible ones
     int semiTransparentSurfaces = 0;  ///< visible ones: opacity above 0 and below 1
     bool layerStyle = false;          ///< a volume is shown in layers
+    bool illustrative = false;        ///< all surfaces are drawn as lines; the counts above are then 0
+    int primarySurfaces = 0;          ///< visible ones, then
+    int secondarySurfaces = 0;        ///< likewise
     bool betweenKeyFrames = false;    ///< and its time lies between two key frames
     TransparencyMethod method = TransparencyMethod::automatic;
     int layers = 4;             ///< of the method peel, at least 1

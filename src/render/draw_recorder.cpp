@@ -6,6 +6,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <span>
@@ -37,12 +38,17 @@ std::vector<const SurfaceDraw*> visibleDraws(const FrameDescription& frame, cons
     return visible;
 }
 
+/// Of a surface's mesh, or of what it may move in.
+Bounds drawnBounds(const SurfaceDraw& draw, const MeshStore& meshes) {
+    return draw.boundsSeries ? transformed(draw.worldFromSeries, *draw.boundsSeries)
+                             : boundsWorld(meshes.get(draw.mesh), draw.worldFromSeries);
+}
+
 double nearDistanceFor(const FrameDescription& frame, const std::vector<const SurfaceDraw*>& visible,
                        const MeshStore& meshes) {
     std::optional<Bounds> drawn;
     for (const SurfaceDraw* draw : visible) {
-        const Bounds bounds = draw->boundsSeries ? transformed(draw->worldFromSeries, *draw->boundsSeries)
-                                                 : boundsWorld(meshes.get(draw->mesh), draw->worldFromSeries);
+        const Bounds bounds = drawnBounds(*draw, meshes);
         if (drawn) {
             drawn->include(bounds);
         } else {
@@ -50,6 +56,30 @@ double nearDistanceFor(const FrameDescription& frame, const std::vector<const Su
         }
     }
     return nearDistance(frame.camera, drawn);
+}
+
+/// Of where a box may be seen, with a pixel around it; all of the picture where it reaches the eye.
+PictureRegion seenRegion(const FrameDescription& frame, const Bounds& box, double near) {
+    const PictureRegion whole{{0, 0}, frame.camera.size};
+    const ViewAxes axes = viewAxes(frame.camera);
+    const glm::dmat4 fromEye = clipFromEye(frame.camera, near);
+    glm::dvec2 low(1), high(-1);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 at(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                            corner & 4 ? box.high.z : box.low.z);
+        const glm::dvec3 fromEyeTo = at - frame.camera.eye;
+        if (glm::dot(fromEyeTo, axes.forward) < near) return whole;
+        const glm::dvec4 clip = fromEye * glm::dvec4(fromEyeTo, 1);
+        low = glm::min(low, glm::dvec2(clip) / clip.w);
+        high = glm::max(high, glm::dvec2(clip) / clip.w);
+    }
+    const glm::dvec2 size(frame.camera.size);
+    const auto pixel = [&](const glm::dvec2& clip) {
+        return glm::clamp((clip + 1.0) / 2.0, 0.0, 1.0) * size;
+    };
+    const glm::ivec2 first = glm::max(glm::ivec2(pixel(low)) - 2, 0);
+    const glm::ivec2 last = glm::min(glm::ivec2(pixel(high)) + 2, frame.camera.size - 1);
+    return {first, last - first + 1};
 }
 
 void setShell(const PreparedShell& prepared, float gradientScale, DrawUniforms& uniforms) {
@@ -89,7 +119,13 @@ DrawUniforms drawUniforms(const MeshMatrices& matrices, const SurfaceDraw& draw)
 DrawRecorder::DrawRecorder(gl::StateCache& state)
     : state_(state),
       uniformStride_(uniformStride()),
-      frameUniforms_(gl::Buffer::updatable(sizeof(FrameUniforms))) {}
+      frameUniforms_(gl::Buffer::updatable(sizeof(FrameUniforms))),
+      illustrationUniforms_(gl::Buffer::updatable(sizeof(IllustrationUniforms))) {}
+
+std::vector<DrawRecorder::PreparedDraw>& DrawRecorder::listOf(const SurfaceDraw& draw) {
+    if (frame_.illustration) return draw.secondary ? secondary_ : primary_;
+    return draw.opaque() ? opaque_ : semiTransparent_;
+}
 
 void DrawRecorder::prepare(const FrameDescription& frame, const MeshStore& meshes,
                            const VolumeStore& volumes) {
@@ -97,14 +133,12 @@ void DrawRecorder::prepare(const FrameDescription& frame, const MeshStore& meshe
     volume_.prepare(frame.layerDraw, volumes);
     meshes_ = &meshes;
     visible_ = visibleDraws(frame_, meshes);
-    opaque_.clear();
-    semiTransparent_.clear();
+    for (auto* list : {&opaque_, &semiTransparent_, &primary_, &secondary_}) list->clear();
     std::size_t offset = 0;
     for (const SurfaceDraw* draw : visible_) {
         const bool mirrored = glm::determinant(glm::dmat3(draw->worldFromSeries)) < 0;
-        auto& list = draw->opaque() ? opaque_ : semiTransparent_;
         const std::size_t map = draw->colorBar ? draw->colorBar->map : 0;
-        list.push_back({&meshes.get(draw->mesh), offset, mirrored, map});
+        listOf(*draw).push_back({&meshes.get(draw->mesh), offset, mirrored, map});
         offset += uniformStride_;
     }
 }
@@ -133,6 +167,9 @@ void DrawRecorder::upload(glm::dvec2 shiftPixels, int subframes) {
     }
     uploadUniforms(bytes);
     uploadFrameUniforms(subframes);
+    if (!frame_.illustration) return;
+    uploadIllustration(shiftPixels);
+    aroundSurfaces_ = regionOf(near);
 }
 
 void DrawRecorder::uploadFrameUniforms(int subframes) {
@@ -148,6 +185,42 @@ void DrawRecorder::uploadFrameUniforms(int subframes) {
         .layerLimit = frame_.method == TransparencyMethod::peel ? frame_.layers : kNoLayerLimit};
     frameUniforms_.write(0, std::as_bytes(std::span(&shared, 1)));
     glBindBufferBase(GL_UNIFORM_BUFFER, FrameUniforms::kBinding, frameUniforms_.name());
+}
+
+/// Meshes lie within their boxes, and boxes that are given may be much larger, but moved meshes need those.
+PictureRegion DrawRecorder::regionOf(double near) const {
+    glm::ivec2 low(frame_.camera.size), high(0);
+    for (const SurfaceDraw* draw : visible_) {
+        const Bounds bounds = draw->motion == 0 ? boundsWorld(meshes_->get(draw->mesh), draw->worldFromSeries)
+                                                : drawnBounds(*draw, *meshes_);
+        const PictureRegion region = seenRegion(frame_, bounds, near);
+        low = glm::min(low, region.origin);
+        high = glm::max(high, region.origin + region.size);
+    }
+    return {low, glm::max(high - low, glm::ivec2(0))};
+}
+
+void DrawRecorder::uploadIllustration(glm::dvec2 shiftPixels) {
+    const IllustrativeStyle& style = *frame_.illustration;
+    const ViewAxes axes = viewAxes(frame_.camera);
+    const glm::dvec3 light(style.light);
+    const double height = 2 * std::tan(frame_.camera.fovDegrees * M_PI / 360);
+    const double angle = style.hatchAngle * M_PI / 180;
+    const IllustrationUniforms uniforms{
+        .light =
+            glm::vec4(glm::normalize(light.x * axes.right + light.y * axes.up - light.z * axes.forward), 0),
+        .paper = {style.paper * frame_.backgroundOpacity, frame_.backgroundOpacity},
+        .front = {style.front, 1},
+        .back = {style.back, 1},
+        .hatchRow = glm::dvec2(std::cos(angle), std::sin(angle)) / double(style.hatchSize),
+        .shiftPixels = shiftPixels,
+        .hatchCross = style.hatchCross,
+        .alpha = style.alpha,
+        .beta = style.beta,
+        .normalThreshold = style.normalThreshold,
+        .depthThreshold = static_cast<float>(style.depthThreshold * height / frame_.camera.size.y)};
+    illustrationUniforms_.write(0, std::as_bytes(std::span(&uniforms, 1)));
+    glBindBufferBase(GL_UNIFORM_BUFFER, IllustrationUniforms::kBinding, illustrationUniforms_.name());
 }
 
 void DrawRecorder::uploadUniforms(const std::vector<std::byte>& bytes) {

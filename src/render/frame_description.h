@@ -38,6 +38,9 @@ struct SurfaceDraw {
     /// where flat parts of several surfaces lie in one plane.
     int depthRank = 0;
 
+    /// In an illustration: visible behind what hides it, in its own color, and without lines.
+    bool secondary = false;
+
     bool opaque() const { return opacity >= 1 && !shell; }
     bool visible() const { return opacity > 0 || shell; }
 
@@ -49,6 +52,8 @@ struct FrameDescription {
     CameraView camera;
     std::vector<SurfaceDraw> draws{};
     std::optional<LayerDraw> layerDraw{};  ///< an iso-surface in layers, over what is opaque
+    /// Draws lines in place of lit surfaces: whatever is visible counts as opaque. Not with `layerDraw`.
+    std::optional<IllustrativeStyle> illustration{};
     LinearColor background{0};
     /// Below 1 the picture has alpha: that of the background, and what surfaces cover of it.
     float backgroundOpacity = 1;

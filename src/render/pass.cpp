@@ -17,8 +17,9 @@ using gl::DepthTest;
 constexpr const char* kFullScreen = "full_screen.vert";
 
 constexpr std::array<std::string_view, kTargetCount> kTargetNames{
-    "opaque color",    "opaque depth", "composed",   "nearest back depth", "layer color", "even layer depth",
-    "odd layer depth", "sums",         "list heads", "linear image",       "sRGB image"};
+    "opaque color",     "opaque depth",    "composed",       "nearest back depth", "layer color",
+    "even layer depth", "odd layer depth", "sums",           "list heads",         "linear image",
+    "sRGB image",       "first surface",   "second surface", "secondary shade"};
 
 Target layerDepth(int layer) {
     return layer % 2 == 0 ? Target::layerDepthEven : Target::layerDepthOdd;
@@ -36,6 +37,14 @@ class Declarer {
                 return opaque(planned);
             case PassKind::layers:
                 return layers(planned);
+            case PassKind::firstSurface:
+                return seenSurface(planned, 0, Target::firstSurface);
+            case PassKind::secondSurface:
+                return seenSurface(planned, 1, Target::secondSurface);
+            case PassKind::secondaryGeometry:
+                return secondaryGeometry(planned);
+            case PassKind::illustration:
+                return illustration(planned);
             case PassKind::backFaceDepth:
                 return backFaceDepth(planned);
             case PassKind::blending:
@@ -101,6 +110,49 @@ class Declarer {
         return pass;
     }
 
+    /// Peeled like the layers of the method peel, but whatever is drawn is opaque.
+    static PassDeclaration seenSurface(const PlannedPass& planned, int layer, Target target) {
+        PassDeclaration pass = geometry(planned, "surface.vert", "seen_surface.frag");
+        if (layer > 0) {
+            pass.reads = {layerDepth(layer - 1)};
+            pass.defines = {previousLayer(layer)};
+        }
+        pass.writes = {{target, Begin::fillZero}};
+        pass.depth = DepthUse{.target = layerDepth(layer), .clear = true};
+        pass.state = {.depthTest = DepthTest::greater, .depthWrite = true};
+        pass.record = [](DrawRecorder& recorder) { recorder.drawPrimary(); };
+        return pass;
+    }
+
+    PassDeclaration secondaryGeometry(const PlannedPass& planned) const {
+        PassDeclaration pass = geometry(planned, "surface.vert", "secondary_geometry.frag");
+        if (plan_.runs(PassKind::firstSurface)) {
+            pass.reads = {Target::layerDepthEven, Target::layerDepthOdd};
+            pass.defines = {"SURFACES"};
+        }
+        pass.writes = {{Target::secondaryShade, Begin::fillZero}};
+        pass.depth = DepthUse{.target = Target::opaqueDepth, .clear = true};
+        pass.state = {.depthTest = DepthTest::greater, .depthWrite = true};
+        pass.record = [](DrawRecorder& recorder) { recorder.drawSecondary(); };
+        return pass;
+    }
+
+    PassDeclaration illustration(const PlannedPass& planned) const {
+        PassDeclaration pass = fullScreen(planned, "illustration.frag");
+        pass.defines = {supersample()};
+        if (plan_.runs(PassKind::firstSurface)) {
+            pass.reads = {Target::firstSurface, Target::secondSurface};
+            pass.defines.push_back("SURFACES");
+        }
+        if (plan_.runs(PassKind::secondaryGeometry)) {
+            pass.reads.push_back(Target::secondaryShade);
+            pass.defines.push_back("SECONDARY_GEOMETRY");
+        }
+        pass.writes = {{Target::opaqueColor, Begin::fillBackground}};
+        pass.onlyAroundSurfaces = true;
+        return pass;
+    }
+
     /// A depth target that starts as the opaque depth.
     DepthUse startingOpaque(Target target) const {
         if (!hasOpaque_) return {.target = target, .clear = true};
@@ -149,9 +201,8 @@ class Declarer {
     PassDeclaration peeledLayer(const PlannedPass& planned) const {
         PassDeclaration pass = geometry(planned, "surface.vert", "peeled_layer.frag");
         if (planned.layer > 0) {
-            const Target previous = layerDepth(planned.layer - 1);
-            pass.reads = {previous};
-            pass.defines = {"PREVIOUS_LAYER " + std::to_string(static_cast<int>(previous))};
+            pass.reads = {layerDepth(planned.layer - 1)};
+            pass.defines = {previousLayer(planned.layer)};
         }
         pass.writes = {{Target::layerColor, Begin::fillZero}};
         pass.depth = startingOpaque(layerDepth(planned.layer));
@@ -188,13 +239,11 @@ class Declarer {
         const auto [shader, front] = whatIsInFront();
         PassDeclaration pass = fullScreen(planned, shader);
         if (front) pass.reads.push_back(*front);
-        if (hasOpaque_ || plan_.runs(PassKind::layers)) {
+        if (hasOpaque_ || plan_.runs(PassKind::layers) || plan_.runs(PassKind::illustration)) {
             pass.reads.push_back(Target::opaqueColor);
             pass.defines.push_back("OPAQUE_BEHIND");
         }
-        if (plan_.supersample > 1) {
-            pass.defines.push_back("SUPERSAMPLE " + std::to_string(plan_.supersample));
-        }
+        if (plan_.supersample > 1) pass.defines.push_back(supersample());
         pass.writes = {{Target::srgbImage}};
         return pass;
     }
@@ -206,6 +255,13 @@ class Declarer {
         pass.state.blend[0] = Blend::add;
         return pass;
     }
+
+    /// Where the depth of the layer before is read.
+    static std::string previousLayer(int layer) {
+        return "PREVIOUS_LAYER " + std::to_string(static_cast<int>(layerDepth(layer - 1)));
+    }
+
+    std::string supersample() const { return "SUPERSAMPLE " + std::to_string(plan_.supersample); }
 
     const FramePlan& plan_;
     const bool hasOpaque_;

@@ -21,14 +21,17 @@ enum class Target {
     composed,          ///< RGB emission, A transmittance of what is semi-transparent; 32-bit float
     nearestBackDepth,  ///< nearer one of opaqueDepth and the nearest semi-transparent back face
     layerColor,        ///< RGB emission, A opacity of one peeled layer; 32-bit float
-    layerDepthEven,    ///< depth of the peeled layers 0, 2, ...
-    layerDepthOdd,     ///< depth of the peeled layers 1, 3, ...
+    layerDepthEven,    ///< depth of the peeled layers 0, 2, ...; the first surface of an illustration
+    layerDepthOdd,     ///< depth of the peeled layers 1, 3, ...; the second surface of an illustration
     sums,              ///< integers, 5 layers: see shaders/lib/integer_sums.glsl
     listHeads,         ///< integers: first node of a pixel's fragment list
     linearImage,       ///< the picture before exposure, RGB times alpha, 32-bit float, size of the image
     srgbImage,         ///< the picture with straight alpha, 8 bits, size of the image
+    firstSurface,      ///< integers: distance and normal, see shaders/lib/seen_surface.glsl
+    secondSurface,     ///< the same of the second surface
+    secondaryShade,    ///< RGB color, A brightness of secondary geometry, negative behind the second surface
 };
-inline constexpr std::size_t kTargetCount = 11;
+inline constexpr std::size_t kTargetCount = 14;
 
 std::string_view targetName(Target target);
 
@@ -67,6 +70,8 @@ struct PassDeclaration {
     /// An integer target, filled with 0, that shaders change by atomic operations at image unit 0.
     std::optional<Target> image{};
     std::optional<DepthUse> depth{};
+    /// After the targets have begun, only the part of the picture where surfaces may be is drawn.
+    bool onlyAroundSurfaces = false;
     std::vector<int> volumeUnits{};  ///< texture units of a volume's samples
     gl::PipelineState state{};
     std::function<void(DrawRecorder&)> record;  ///< called once, inside the pass

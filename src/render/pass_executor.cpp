@@ -2,7 +2,10 @@
 
 #include "base/error.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <numeric>
 #include <stdexcept>
@@ -61,6 +64,11 @@ void fillTargets(const PassDeclaration& pass, RenderTargets& targets, const gl::
                  const glm::vec4& background) {
     for (std::size_t i = 0; i < pass.writes.size(); ++i) {
         if (pass.writes[i].begin == Begin::keep) continue;
+        if (targets.isInteger(pass.writes[i].target)) {
+            constexpr std::array<GLuint, 4> kZero{};
+            glClearNamedFramebufferuiv(framebuffer.name(), GL_COLOR, static_cast<GLint>(i), kZero.data());
+            continue;
+        }
         const glm::vec4 color = fillColor(pass.writes[i].begin, background);
         glClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, static_cast<GLint>(i), &color[0]);
     }
@@ -186,6 +194,13 @@ void PassExecutor::runPass(const PassDeclaration& pass, const Frame& frame, cons
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer.name());
     glViewport(0, 0, size.x, size.y);
     bindReads(pass, targets);
+    if (pass.onlyAroundSurfaces) {
+        const Region around = frame.recorder.aroundSurfaces();
+        const glm::ivec2 low = glm::max(region.origin, around.origin);
+        const glm::ivec2 high = glm::min(region.origin + region.size, around.origin + around.size);
+        const glm::ivec2 part = glm::max(high - low, glm::ivec2(0)) * scale;
+        glScissor(low.x * scale, low.y * scale, part.x, part.y);
+    }
     glUseProgram(shaders.name());
     frame.recorder.beginPass(pass.state);
     pass.record(frame.recorder);

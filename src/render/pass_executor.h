@@ -53,10 +53,7 @@ class PassExecutor {
     FragmentLists& lists() { return lists_; }
 
   private:
-    /// A part of the picture, in pixels from its lower left corner.
-    struct Region {
-        glm::ivec2 origin, size;
-    };
+    using Region = PictureRegion;
 
     const gl::Program& program(const PassDeclaration& pass);
     void runPass(const PassDeclaration& pass, const Frame& frame, const Region& region);

@@ -12,6 +12,7 @@ GLenum formatOf(Target target) {
         case Target::opaqueColor:
         case Target::composed:
         case Target::layerColor:
+        case Target::secondaryShade:
         case Target::linearImage:
             return GL_RGBA32F;
         case Target::opaqueDepth:
@@ -22,6 +23,9 @@ GLenum formatOf(Target target) {
         case Target::sums:
         case Target::listHeads:
             return GL_R32UI;
+        case Target::firstSurface:
+        case Target::secondSurface:
+            return GL_RG32UI;
         case Target::srgbImage:
             return GL_RGBA8;
     }
@@ -63,6 +67,11 @@ void RenderTargets::resize(glm::ivec2 imageSize, int supersample) {
     for (auto& texture : textures_) texture.reset();
     imageSize_ = imageSize;
     supersample_ = supersample;
+}
+
+bool RenderTargets::isInteger(Target target) {
+    const GLenum format = formatOf(target);
+    return format == GL_R32UI || format == GL_RG32UI;
 }
 
 glm::ivec2 RenderTargets::sizeOf(Target target) const {

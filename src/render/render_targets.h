@@ -22,6 +22,7 @@ class RenderTargets {
 
     const gl::Texture& texture(Target target);
     bool exists(Target target) const { return textures_[static_cast<std::size_t>(target)].has_value(); }
+    static bool isInteger(Target target);
     /// Pixels of a target.
     glm::ivec2 sizeOf(Target target) const;
 

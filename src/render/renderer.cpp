@@ -53,6 +53,8 @@ void checkCount(int count, int most, const char* what) {
 void check(const FrameDescription& frame) {
     checkCount(frame.samples, kMostSamples, "samples a pixel");
     checkCount(frame.layers, kMostLayers, "layers to peel");
+    if (frame.illustration && frame.layerDraw)
+        throw std::invalid_argument("an illustration does not show layers");
 }
 
 }  // namespace
@@ -66,6 +68,9 @@ FramePlan Renderer::planOf(const FrameDescription& frame) {
     return planFrame({.opaqueSurfaces = recorder_.opaqueCount(),
                       .semiTransparentSurfaces = recorder_.semiTransparentCount(),
                       .layerStyle = frame.layerDraw.has_value(),
+                      .illustrative = frame.illustration.has_value(),
+                      .primarySurfaces = recorder_.primaryCount(),
+                      .secondarySurfaces = recorder_.secondaryCount(),
                       .betweenKeyFrames = frame.layerDraw && frame.layerDraw->fraction > 0,
                       .method = frame.method,
                       .layers = frame.layers,
@@ -87,10 +92,11 @@ void Renderer::render(const FrameDescription& frame, const FramePlan& plan) {
     plan_ = plan;
     targets_.resize(frame.camera.size, plan_.supersample);
     recorder_.prepare(frame, meshes_, volumes_);
+    const LinearColor background = frame.illustration ? frame.illustration->paper : frame.background;
     const PassExecutor::Frame parts{
         .targets = targets_,
         .recorder = recorder_,
-        .background = {frame.background * frame.backgroundOpacity, frame.backgroundOpacity},
+        .background = {background * frame.backgroundOpacity, frame.backgroundOpacity},
         .timings = timing_ ? &timings_ : nullptr};
     for (int i = 0; i < plan_.subframes; ++i) {
         recorder_.upload(samplePosition(i, plan_.subframes) / double(plan_.supersample), plan_.subframes);
@@ -137,6 +143,14 @@ LinearImage Renderer::readLinear() {
 
 Image Renderer::readSrgb() {
     return readBack<Rgba8>(context_, targets_, Target::srgbImage, GL_RGBA, GL_UNSIGNED_BYTE);
+}
+
+Raster<glm::vec4> Renderer::readFloats(Target target) {
+    return readBack<glm::vec4>(context_, targets_, target, GL_RGBA, GL_FLOAT);
+}
+
+Raster<glm::uvec2> Renderer::readIntegers(Target target) {
+    return readBack<glm::uvec2>(context_, targets_, target, GL_RG_INTEGER, GL_UNSIGNED_INT);
 }
 
 DepthImage Renderer::readDepth() {

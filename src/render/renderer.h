@@ -64,6 +64,10 @@ class Renderer {
     /// Depth of what is opaque, in samples (twice the image's size along each axis where `samples` is a
     /// multiple of 4); of the last of the pictures that were averaged.
     DepthImage readDepth();
+    /// What a pass of the last frame left in a target, in samples: for tests and studies. Four floats, or two
+    /// integers.
+    Raster<glm::vec4> readFloats(Target target);
+    Raster<glm::uvec2> readIntegers(Target target);
 
   private:
     gl::Context& context_;

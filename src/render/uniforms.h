@@ -83,4 +83,22 @@ struct VolumeUniforms {
     float padding[1] = {};
 };
 
+/// Uniform block `Illustration` of shaders/lib/illustration.glsl, std140.
+struct IllustrationUniforms {
+    static constexpr unsigned kBinding = 4;
+
+    glm::vec4 light;
+    glm::vec4 paper;
+    glm::vec4 front;
+    glm::vec4 back;
+    glm::vec2 hatchRow;
+    glm::vec2 shiftPixels;
+    float hatchCross;
+    float alpha;
+    float beta;
+    float normalThreshold;
+    float depthThreshold;
+    float padding[3] = {};
+};
+
 }  // namespace isoglass
