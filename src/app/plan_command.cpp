@@ -31,9 +31,9 @@ MeasuredPlan measure(const Scene& scene, const SceneMeshes& meshes) {
     Renderer renderer(context.context());
     FrameDescription frame = describeFrame(scene, sceneView(scene));
     frame.draws = surfaceDraws(scene, meshes);
-    for (std::size_t i = 0; i < frame.draws.size(); ++i) {
-        frame.draws[i].mesh = renderer.meshes().upload(*meshes.surfaces[i].mesh);
-    }
+    MeshUploads uploads;
+    const std::vector<MeshId> ids = uploads.replace(meshes.meshes(), renderer.meshes());
+    for (std::size_t i = 0; i < frame.draws.size(); ++i) frame.draws[i].mesh = ids[i];
     LayerUploads layers;
     layers.replace(meshes.layers, renderer.volumes());
     frame.layerDraw = layers.draw(scene, 0);

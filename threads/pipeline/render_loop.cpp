@@ -64,11 +64,9 @@ bool RenderLoop::takeMeshes(Renderer& renderer) {
 
 void RenderLoop::replaceMeshes(Renderer& renderer, FrameMeshes meshes) {
     std::vector<SurfaceDraw> draws = surfaceDraws(scene_, meshes.meshes);
-    for (std::size_t i = 0; i < draws.size(); ++i) {
-        draws[i].mesh = renderer.meshes().upload(*meshes.meshes.surfaces[i].mesh);
-    }
+    const std::vector<MeshId> ids = meshes_.replace(meshes.meshes.meshes(), renderer.meshes());
+    for (std::size_t i = 0; i < draws.size(); ++i) draws[i].mesh = ids[i];
     layers_.replace(meshes.meshes.layers, renderer.volumes());
-    for (const SurfaceDraw& old : draws_) renderer.meshes().release(old.mesh);
     draws_ = std::move(draws);
     shown_ = std::move(meshes);
 }
@@ -95,7 +93,7 @@ void RenderLoop::move(double position, std::vector<SurfaceDraw>& draws) const {
     const SceneMeshes& meshes = shown_->meshes;
     if (meshes.fractionsPerPosition.empty()) return;
     const double passed = position - shown_->request.position;
-    for (std::size_t i = 0; i < draws.size(); ++i) {
+    for (std::size_t i = 0; i < meshes.surfaces.size(); ++i) {
         const std::size_t volume = meshes.surfaces[i].volume;
         if (meshes.surfaces[i].mesh->velocities.empty()) continue;
         draws[i].motion = static_cast<float>(
@@ -115,7 +113,7 @@ double motionWithin(double fraction, double wanted) {
 }
 
 RenderView sceneView(const Scene& scene) {
-    return {.camera = scene.camera.poseAt(0), .size = scene.image.size};
+    return {.camera = scene.camera.poseAt(0), .size = scene.image.size, .illustration = scene.illustrative};
 }
 
 namespace {
@@ -167,10 +165,17 @@ std::vector<SurfaceDraw> surfaceDraws(const Scene& scene, const SceneMeshes& mes
         }
         draw.color = surface.color;
         draw.opacity = surface.opacity;
+        draw.secondary = surface.secondary;
         if (surface.shell) draw.shell = prepareShell(*surface.shell);
         if (surface.fieldColor) draw.colorBar = barOf(*surface.fieldColor);
         if (extracted.caps) makeCap(volume, surface, draw);
         draws.push_back(draw);
+    }
+    for (const MeshObject& object : scene.meshes) {
+        draws.push_back({.worldFromSeries = worldFromSeries(object.place),
+                         .color = object.color,
+                         .opacity = object.opacity,
+                         .secondary = object.secondary});
     }
     return draws;
 }
@@ -186,6 +191,7 @@ FrameDescription describeFrame(const Scene& scene, const RenderView& view) {
     frame.layers = scene.transparency.layers;
     frame.reproducible = scene.transparency.reproducible;
     frame.exactWanted = scene.quality.exactOrder;
+    frame.illustration = view.illustration;
     frame.samples = scene.image.samples;
     frame.wireframe = view.wireframe;
     frame.keepLinear = false;

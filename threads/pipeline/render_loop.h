@@ -4,6 +4,7 @@
 #include "basis/mailbox.h"
 #include "gl/current_context.h"
 #include "pipeline/extraction_worker.h"
+#include "pipeline/scene_objects.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
 
@@ -33,6 +34,7 @@ struct RenderView {
     /// On the timeline: meshes of another moment that have velocities are moved there, as far as they can,
     /// never across a key frame. Without it they are shown as they are.
     std::optional<double> position = {};
+    std::optional<IllustrativeStyle> illustration = {};  ///< not where the scene shows layers
 
     friend bool operator==(const RenderView&, const RenderView&) = default;
 };
@@ -98,7 +100,8 @@ class RenderLoop {
     RenderInbox& inbox_;
     const Hooks hooks_;
     std::optional<FrameMeshes> shown_;
-    std::vector<SurfaceDraw> draws_;
+    std::vector<SurfaceDraw> draws_;  ///< of surfaces, then of objects
+    MeshUploads meshes_;
     LayerUploads layers_;
     std::exception_ptr failure_;
     std::jthread thread_;  ///< last member: it uses all the others
@@ -111,8 +114,8 @@ double motionWithin(double fraction, double wanted);
 /// The view that a scene describes, from the beginning of its camera's path.
 RenderView sceneView(const Scene& scene);
 
-/// How the scene's surfaces are drawn: placement, colour and opacity for each extracted mesh. The mesh
-/// ids are left open.
+/// How the scene's surfaces and objects are drawn: placement, colour and opacity for each of
+/// `meshes.meshes()`. The mesh ids are left open.
 std::vector<SurfaceDraw> surfaceDraws(const Scene& scene, const SceneMeshes& meshes);
 
 /// The frame's description without its surfaces.

@@ -1,6 +1,7 @@
 #include "pipeline/scene_extractor.h"
 
 #include "base/error.h"
+#include "pipeline/scene_objects.h"
 #include "render/camera.h"
 #include "surface/level_values.h"
 #include "surface/motion.h"
@@ -73,6 +74,13 @@ TimeSample sampleOf(const PlayedSeries& played, double position) {
 
 }  // namespace
 
+std::vector<std::shared_ptr<const SurfaceMesh>> SceneMeshes::meshes() const {
+    std::vector<std::shared_ptr<const SurfaceMesh>> all;
+    for (const ExtractedSurface& extracted : surfaces) all.push_back(extracted.mesh);
+    all.insert(all.end(), objects.begin(), objects.end());
+    return all;
+}
+
 SceneExtractor::SceneExtractor(const Scene& scene, Options options)
     : scene_(scene), options_(std::move(options)) {
     for (const Volume& volume : scene_.volumes) {
@@ -91,6 +99,11 @@ SceneExtractor::SceneExtractor(const Scene& scene, Options options)
             source.time = volume.time;
             colorSeries_.push_back({v, s, playSeries(source, scene_.time, options_.open(source))});
         }
+    }
+    for (const MeshObject& object : scene_.meshes) {
+        ObjectMesh read = readObject(object);
+        objects_.push_back(std::move(read.mesh));
+        notes_.insert(notes_.end(), read.notes.begin(), read.notes.end());
     }
     layered_ = layeredVolume(scene_);
     if (layered_) finestInLayers_ = finestLayerLevel(*series_[*layered_].file);
@@ -289,6 +302,7 @@ SceneMeshes SceneExtractor::extract(double position, const CameraPose& camera, g
     const std::vector<FrameKey> ahead = framesAhead(position, course);
     cache_->want(ahead);
     SceneMeshes result;
+    result.objects = objects_;
     for (std::size_t v = 0; v < scene_.volumes.size(); ++v) {
         const SeriesDescription& series = series_[v].file->description();
         const double time = series_[v].timeAt(position);

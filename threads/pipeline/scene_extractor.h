@@ -53,8 +53,13 @@ struct SceneMeshes {
     /// because they are not there yet; 0 where all is as the scene wants it.
     std::vector<int> substitutes;
     std::optional<SceneLayers> layers;  ///< where a volume is shown in layers that are not clipped away
+    std::vector<std::shared_ptr<const SurfaceMesh>>
+        objects{};  ///< one a `Scene::meshes`; the same ones always
 
-    /// The coarsest of them.
+    /// Those of the surfaces, then the objects.
+    std::vector<std::shared_ptr<const SurfaceMesh>> meshes() const;
+
+    /// The coarsest of `substitutes`.
     int substitute() const { return substitutes.empty() ? 0 : std::ranges::max(substitutes); }
 };
 
@@ -83,8 +88,8 @@ class SceneExtractor {
         std::function<std::shared_ptr<const SeriesFile>(const Volume&)> open = openSeries;
     };
 
-    /// Opens every series of the scene. Throws Error where one cannot be read, is not the grid that the
-    /// scene names, or where the scene's times mean nothing to it.
+    /// Opens every series of the scene and reads its meshes. Throws Error where one cannot be read, is not
+    /// the grid that the scene names, or where the scene's times mean nothing to it.
     SceneExtractor(const Scene& scene, Options options);
 
     /// All surfaces at `position` (0 is the timeline's `from`, 1 its `to`), for a picture seen from
@@ -98,6 +103,8 @@ class SceneExtractor {
     const std::vector<PlayedSeries>& series() const { return series_; }
     /// Of the volumes, then of the surfaces that are coloured by one.
     std::vector<std::shared_ptr<const SeriesFile>> files() const;
+    /// What the user should know of the scene's meshes, a sentence each.
+    const std::vector<std::string>& notes() const { return notes_; }
     const KeyFrameCache& cache() const { return *cache_; }
 
   private:
@@ -142,6 +149,8 @@ class SceneExtractor {
     std::optional<std::size_t> layered_;  ///< volume
     int finestInLayers_ = 0;              ///< level
     LayerSamples layerSamples_;
+    std::vector<std::shared_ptr<const SurfaceMesh>> objects_;
+    std::vector<std::string> notes_;
 };
 
 }  // namespace isoglass
