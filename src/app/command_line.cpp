@@ -131,8 +131,9 @@ void addRender(CLI::App& app, const CommonOptions& common, std::function<void()>
 
 void addView(CLI::App& app, const CommonOptions& common, std::function<void()>& run) {
     auto command = std::make_shared<ViewCommand>();
-    CLI::App* verb = app.add_subcommand("view", "Show a scene or a series in a window");
-    verb->add_option("SCENE", command->file, "Scene file (.json), or a series of IsoGlass (.vdb)")
+    CLI::App* verb = app.add_subcommand("view", "Show a scene, a series or a mesh in a window");
+    verb->add_option("SCENE", command->file,
+                     "Scene file (.json), a series of IsoGlass (.vdb), or a mesh (.ply, .obj, .stl, .off)")
         ->required();
     verb->add_option_function<std::string>(
         "--size", [command](const std::string& text) { command->size = imageSize(text); },

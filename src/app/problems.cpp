@@ -2,6 +2,7 @@
 
 #include "app/text.h"
 #include "pipeline/played_series.h"
+#include "pipeline/scene_objects.h"
 #include "scene/scene_check.h"
 #include "scene/scene_file.h"
 
@@ -42,10 +43,10 @@ std::vector<Error> damagedFrames(const SeriesFile& series) {
     return errors;
 }
 
-/// Checks the volumes of a scene against their series.
-class VolumeChecks {
+/// Checks the volumes and meshes of a scene against their files.
+class FileChecks {
   public:
-    VolumeChecks(std::string sceneFile, const SceneProblems& scene, std::vector<Problem>& problems)
+    FileChecks(std::string sceneFile, const SceneProblems& scene, std::vector<Problem>& problems)
         : sceneFile_(std::move(sceneFile)), scene_(scene), problems_(problems) {}
 
     void check(std::size_t index) {
@@ -53,6 +54,17 @@ class VolumeChecks {
         pointer_ = "/volumes/" + std::to_string(index);
         if (!scene_.touches(pointer_ + "/series")) checkSeries(volume);
         for (std::size_t i = 0; i < volume.surfaces.size(); ++i) checkColor(volume, i);
+    }
+
+    void checkMesh(std::size_t index) {
+        const std::string pointer = "/meshes/" + std::to_string(index) + "/file";
+        if (scene_.touches(pointer)) return;
+        try {
+            for (const std::string& note : readObject(scene_.rest->meshes[index]).notes)
+                add(pointer, note, {}, Severity::warning);
+        } catch (const Error& error) {
+            add(pointer, error);
+        }
     }
 
   private:
@@ -185,8 +197,9 @@ std::vector<Problem> problemsOfScene(const std::filesystem::path& file) {
     if (!scene.rest) return problems;
     for (const std::string& note : scene.rest->notes)
         problems.push_back({.severity = Severity::warning, .what = note, .file = name});
-    VolumeChecks checks(name, scene, problems);
+    FileChecks checks(name, scene, problems);
     for (std::size_t i = 0; i < scene.rest->volumes.size(); ++i) checks.check(i);
+    for (std::size_t i = 0; i < scene.rest->meshes.size(); ++i) checks.checkMesh(i);
     return problems;
 }
 

@@ -144,6 +144,7 @@ void runRender(const RenderCommand& command, const CommonOptions& common) {
     const FrameRange range = chooseFrames(command, output, scene);
     SceneExtractor extractor(scene,
                              {.memoryBytes = common.memoryBytes, .threads = common.threads, .seenMargin = 0});
+    for (const std::string& note : extractor.notes()) printNote(note);
     const std::unique_ptr<FrameSink> sink =
         makeSink(output, scene, range, [&] { return renderIdentity(scene, extractor); });
     renderMissing(scene, extractor, range, *sink);

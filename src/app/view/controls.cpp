@@ -30,18 +30,22 @@ std::string_view viewerHelp() {
            "left, right        the key frame before or after\n"
            "shift + left/right the displayed frame before or after\n"
            "Home               the scene's own camera again\n"
+           "i                  line drawing that shows what is hidden, on or off\n"
+           "n, N               its next or previous parameter; + and - change it\n"
+           "p                  print them as a scene file has them\n"
            "w                  wireframe on or off\n"
            "s                  save a picture (PNG) in the working folder\n"
            "?                  this help on or off\n"
            "q, Esc             quit\n"
-           "drop a file        open a scene (.json) or a series (.vdb)\n";
+           "drop a file        open a scene (.json), a series (.vdb) or a mesh\n";
 }
 
 ViewerControls::ViewerControls(const Scene& scene, std::vector<double> keyPositions)
     : sceneCamera_(scene.camera),
       lens_{.up = scene.camera.up, .fovDegrees = scene.camera.fovDegrees},
       keyPositions_(std::move(keyPositions)),
-      playhead_(scene.time) {}
+      playhead_(scene.time),
+      style_(scene) {}
 
 CameraPose ViewerControls::camera(double now) const {
     return moved_ ? *moved_ : sceneCamera_.poseAt(playhead_.playbackSeconds(now));
@@ -76,6 +80,7 @@ void ViewerControls::press(const gl::KeyPressed& key, double now) {
 }
 
 ViewerWish ViewerControls::type(char32_t character, double now) {
+    if (style_.type(character)) return {};
     switch (character) {
         case U' ':
             playhead_.playing() ? playhead_.pause(now) : playhead_.play(now);
@@ -93,6 +98,8 @@ ViewerWish ViewerControls::type(char32_t character, double now) {
             return {};
         case U's':
             return {.screenshot = true};
+        case U'p':
+            return {.printStyle = style_.shown().has_value()};
         case U'q':
             return {.quit = true};
         default:

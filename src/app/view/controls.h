@@ -2,6 +2,7 @@
 
 #include "app/view/camera_control.h"
 #include "app/view/playhead.h"
+#include "app/view/style_controls.h"
 #include "gl/window.h"
 #include "scene/scene.h"
 
@@ -19,6 +20,7 @@ std::string_view viewerHelp();
 struct ViewerWish {
     bool quit = false;
     bool screenshot = false;
+    bool printStyle = false;
     std::vector<std::filesystem::path> open = {};  ///< files that were dropped
 };
 
@@ -36,6 +38,7 @@ class ViewerControls {
     /// The scene's own until the user moves it: it then stays where the user put it.
     CameraPose camera(double now) const;
     const Playhead& playhead() const { return playhead_; }
+    const StyleControls& style() const { return style_; }
     bool wireframe() const { return wireframe_; }
     bool help() const { return help_; }
 
@@ -57,6 +60,7 @@ class ViewerControls {
     Lens lens_;
     std::vector<double> keyPositions_;
     Playhead playhead_;
+    StyleControls style_;
     std::optional<CameraPose> moved_;
     std::optional<Drag> drag_;
     bool wireframe_ = false;

@@ -3,7 +3,10 @@
 #include "app/text.h"
 #include "app/view/camera_control.h"
 #include "base/error.h"
+#include "pipeline/scene_objects.h"
 #include "volume/calendar.h"
+
+#include <glm/common.hpp>
 
 #include <algorithm>
 #include <array>
@@ -114,6 +117,12 @@ Placement choosePlace(const Lattice& lattice, const Bounds& box, std::vector<std
     return place;
 }
 
+CameraPose poseFor(const Bounds& box, const Scene& scene) {
+    const Lens lens{.up = scene.camera.up, .fovDegrees = scene.camera.fovDegrees};
+    const glm::dvec2 size(scene.image.size);
+    return fitted(box, lens, {0.5, 1, -0.7}, size.x / size.y);
+}
+
 }  // namespace
 
 IsoSuggestion suggestIsoValues(std::vector<float> samples) {
@@ -157,10 +166,25 @@ FirstScene makeFirstScene(const SeriesFile& series, glm::ivec2 size) {
     Scene& scene = first.scene;
     scene.image.size = size;
     scene.time = chooseTimeline(description.time);
-    const Lens lens{.up = scene.camera.up, .fovDegrees = scene.camera.fovDegrees};
-    scene.camera.pose = fitted(transformed(worldFromSeries(volume.place), {low, high}), lens, {0.5, 1, -0.7},
-                               static_cast<double>(size.x) / size.y);
+    scene.camera.pose = poseFor(transformed(worldFromSeries(volume.place), {low, high}), scene);
     scene.volumes = {std::move(volume)};
+    return first;
+}
+
+FirstScene makeMeshScene(const std::filesystem::path& file, glm::ivec2 size) {
+    const MeshObject object{.name = file.stem().string(), .file = file};
+    const auto mesh = readObject(object).mesh;
+    if (mesh->empty()) throw Error("there is no surface to show: the mesh is empty", file.string());
+    glm::vec3 low = mesh->positions.front(), high = low;
+    for (const glm::vec3& position : mesh->positions) {
+        low = glm::min(low, position);
+        high = glm::max(high, position);
+    }
+    FirstScene first;
+    first.scene.meshes = {object};
+    first.scene.image.size = size;
+    first.scene.camera.pose =
+        poseFor({mesh->origin + glm::dvec3(low), mesh->origin + glm::dvec3(high)}, first.scene);
     return first;
 }
 

@@ -5,6 +5,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,5 +41,8 @@ struct FirstScene {
 /// frame; a camera that sees the whole domain from the south-west and above. Where height has other units
 /// than the horizontal axes it is scaled to a third of them.
 FirstScene makeFirstScene(const SeriesFile& series, glm::ivec2 size);
+
+/// The same for a mesh file. Throws Error where it cannot be read or is empty.
+FirstScene makeMeshScene(const std::filesystem::path& file, glm::ivec2 size);
 
 }  // namespace isoglass

@@ -3,6 +3,7 @@
 #include "app/text.h"
 #include "app/view/first_scene.h"
 #include "base/error.h"
+#include "meshio/mesh_format.h"
 #include "scene/scene_file.h"
 #include "volume/calendar.h"
 
@@ -23,7 +24,8 @@ constexpr double kSeenMargin = 0.5;
 bool isScene(const std::filesystem::path& file) {
     if (!std::filesystem::exists(file)) throw Error("there is no such file", file.string());
     if (std::filesystem::is_directory(file)) {
-        throw Error("this is a folder", file.string(), "name a scene (.json) or a series (.vdb) in it");
+        throw Error("this is a folder", file.string(),
+                    "name a scene (.json), a series (.vdb) or a mesh in it");
     }
     std::ifstream stream(file, std::ios::binary);
     char first = 0;
@@ -75,7 +77,8 @@ Opened openForViewing(const std::filesystem::path& file, glm::ivec2 firstSize, c
         opened.scene = loadScene(file);
         opened.notes = opened.scene.notes;
     } else {
-        FirstScene first = makeFirstScene(SeriesFile(file), firstSize);
+        FirstScene first = knownMeshFormat(file) ? makeMeshScene(file, firstSize)
+                                                 : makeFirstScene(SeriesFile(file), firstSize);
         opened.scene = std::move(first.scene);
         opened.notes = std::move(first.reasons);
     }
@@ -85,6 +88,8 @@ Opened openForViewing(const std::filesystem::path& file, glm::ivec2 firstSize, c
     if (opened.scene.quality.wantsDetail()) extraction.seenMargin = kSeenMargin;
     extraction.motion = opened.scene.time.frameCount() > 1;
     opened.extractor = std::make_unique<SceneExtractor>(opened.scene, extraction);
+    const std::vector<std::string>& more = opened.extractor->notes();
+    opened.notes.insert(opened.notes.end(), more.begin(), more.end());
     return opened;
 }
 

@@ -28,8 +28,8 @@ struct OpenOptions {
     bool showLevels = false;  ///< see colorByLevel
 };
 
-/// Opens a scene file, or a series with the scene of `makeFirstScene`, which is `firstSize` pixels large.
-/// Reads every series once, to check it. Any thread. Throws Error.
+/// Opens a scene file, or a series or mesh with the scene of `makeFirstScene`, which is `firstSize` pixels
+/// large. Reads every series once, to check it. Any thread. Throws Error.
 Opened openForViewing(const std::filesystem::path& file, glm::ivec2 firstSize, const OpenOptions& options);
 
 /// A moment of a series for people: "2005-08-28 12:00" where it has dates, else the time with its units.

@@ -102,12 +102,13 @@ void Viewer::handle(const gl::WindowEvent& event) {
         const auto& wanted = session_->requested;
         session_->order.screenshotRequest = playing || !wanted ? 0 : wanted->number;
     }
+    if (wish.printStyle) std::cout << session_->controls.style().sceneText() << std::endl;
     if (!wish.open.empty()) startOpening(wish.open);
 }
 
 void Viewer::startOpening(const std::vector<std::filesystem::path>& files) {
     if (opening_) return reportError("another file is still being opened");
-    if (files.size() > 1) return reportError("drop one file: a scene (.json) or a series (.vdb)");
+    if (files.size() > 1) return reportError("drop one file: a scene (.json), a series (.vdb) or a mesh");
     notify("opening " + files.front().string());
     opening_ = true;
     opener_ = std::jthread([this, file = files.front(), size = window_.size()] {
@@ -160,7 +161,8 @@ void Viewer::publish() {
     const RenderView view{.camera = controls.camera(moment),
                           .size = window_.pictureSize(),
                           .wireframe = controls.wireframe(),
-                          .position = controls.playhead().position(moment)};
+                          .position = controls.playhead().position(moment),
+                          .illustration = controls.style().shown()};
     if (view.size.x > 0 && view.size.y > 0) {
         if (session_->postedView != view) session_->inbox.views.post(view);
         session_->postedView = view;
@@ -169,6 +171,7 @@ void Viewer::publish() {
     text_.help = controls.help() ? viewerHelp() : "";
     session_->order.text = text_;
     if (text_.notice.empty()) session_->order.text.notice = substituteNotice(*session_);
+    if (session_->order.text.notice.empty()) session_->order.text.notice = controls.style().notice();
     if (session_->postedOrder != session_->order) session_->output.post(session_->order);
     session_->postedOrder = session_->order;
     if (std::string text = title(); text != title_) {
