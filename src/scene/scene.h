@@ -4,6 +4,7 @@
 #include "scene/illustrative_style.h"
 #include "scene/layer_style.h"
 #include "scene/shell_opacity.h"
+#include "scene/volume_style.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -100,7 +101,7 @@ struct Volume {
     ClockMap time;
     std::vector<ClipPlane> clip{};  ///< in series coordinates
     bool closed = false;            ///< what is inside is capped where the domain ends
-    std::vector<Surface> surfaces;
+    std::vector<Surface> surfaces;  ///< at least one, but for a volume of the style "volume"
 
     friend bool operator==(const Volume&, const Volume&) = default;
 };
@@ -215,7 +216,8 @@ struct Scene {
     Quality quality;
     Transparency transparency;
     std::optional<LayerStyle> layers{};               ///< the style "layers": its volume exists
-    std::optional<IllustrativeStyle> illustrative{};  ///< that style; never both
+    std::optional<IllustrativeStyle> illustrative{};  ///< that style; never two of the three
+    std::optional<VolumeStyle> shaded{};              ///< the style "volume": its volume exists
     std::vector<ClipPlane> clip;                      ///< of all volumes, in world coordinates
     /// Keys that were understood but change nothing in this version, a sentence each.
     std::vector<std::string> notes;

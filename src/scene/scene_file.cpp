@@ -96,7 +96,17 @@ void readSeries(const JsonNode& node, const std::filesystem::path& baseFolder, V
         volume.moreSeries.push_back(readSeriesPath(node.item(i), baseFolder));
 }
 
-Volume readVolume(const JsonNode& node, const std::filesystem::path& baseFolder) {
+/// Without surfaces only a volume of the style "volume" shows something.
+void readSurfaces(const JsonNode& node, const std::filesystem::path& baseFolder, bool mayBeEmpty,
+                  Volume& volume) {
+    const auto surfaces = mayBeEmpty ? node.find("surfaces") : std::optional(node.require("surfaces"));
+    if (!surfaces) return;
+    if (surfaces->size() == 0 && !mayBeEmpty) surfaces->fail("expected at least one surface, found none");
+    for (std::size_t i = 0; i < surfaces->size(); ++i)
+        volume.surfaces.push_back(readSurface(surfaces->item(i), baseFolder));
+}
+
+Volume readVolume(const JsonNode& node, const std::filesystem::path& baseFolder, bool surfacesMayBeEmpty) {
     node.object();
     Volume volume;
     readSeries(node.require("series"), baseFolder, volume);
@@ -110,10 +120,7 @@ Volume readVolume(const JsonNode& node, const std::filesystem::path& baseFolder)
         volume.closed = boundary->choice(kBoundaries) == 1;
     }
     if (const auto clip = node.find("clip")) volume.clip = readClip(*clip);
-    const JsonNode surfaces = node.require("surfaces");
-    if (surfaces.size() == 0) surfaces.fail("expected at least one surface, found none");
-    for (std::size_t i = 0; i < surfaces.size(); ++i)
-        volume.surfaces.push_back(readSurface(surfaces.item(i), baseFolder));
+    readSurfaces(node, baseFolder, surfacesMayBeEmpty, volume);
     return volume;
 }
 
@@ -282,7 +289,7 @@ void readContents(const JsonNode& root, const std::filesystem::path& baseFolder,
     if (volumes->size() == 0 && scene.meshes.empty())
         volumes->fail("expected at least one volume, found none");
     for (std::size_t i = 0; i < volumes->size(); ++i)
-        scene.volumes.push_back(readVolume(volumes->item(i), baseFolder));
+        scene.volumes.push_back(readVolume(volumes->item(i), baseFolder, asksForShadedVolume(root)));
 }
 
 Scene readScene(const JsonNode& root, const std::filesystem::path& baseFolder) {

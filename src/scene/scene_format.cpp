@@ -57,7 +57,9 @@ constexpr std::array kStyle{Key("kind"),
                             Key("light"),
                             Key("paper"),
                             Key("front"),
-                            Key("back")};
+                            Key("back"),
+                            Key("unit"),
+                            Key("lit")};
 
 constexpr std::array kFormat{
     FormatObject{"", kScene},

@@ -117,6 +117,7 @@ std::string toJson(const Scene& scene, const std::filesystem::path& baseFolder) 
     json["quality"]["exact_order"] = quality.exactOrder;
     if (scene.layers) json["style"] = styleJson(*scene.layers);
     if (scene.illustrative) json["style"] = styleJson(*scene.illustrative);
+    if (scene.shaded) json["style"] = styleJson(*scene.shaded);
     return json.dump(2) + "\n";
 }
 

@@ -123,7 +123,55 @@ IllustrativeStyle readIllustrative(const JsonNode& node) {
     return style;
 }
 
+/// Pairs of a value and what `store` makes of the second item, by increasing value.
+template <typename Store>
+void readPoints(const JsonNode& node, Store store) {
+    if (node.size() == 0) node.failExpected("at least one pair [value, ...]");
+    double last = 0;
+    for (std::size_t i = 0; i < node.size(); ++i) {
+        const JsonNode point = node.item(i);
+        if (point.size() != 2) point.failExpected("a pair [value, ...]");
+        const double value = point.item(0).number();
+        if (i > 0 && !(value > last))
+            point.item(0).failExpected("a larger value than that of the pair before");
+        last = value;
+        store(value, point.item(1));
+    }
+}
+
+VolumeStyle readShaded(const JsonNode& node, const Scene& scene) {
+    constexpr std::array kKeys{Word("kind"), Word("volume"), Word("colors"), Word("opacities"),
+                               Word("unit"), Word("step"),   Word("lit")};
+    checkKeys(node, kKeys, kKinds[2]);
+    if (scene.volumes.empty())
+        node.fail("the style \"volume\" needs a volume", "add one, or remove \"style\"");
+    VolumeStyle style;
+    if (const auto volume = node.find("volume")) style.volume = readVolume(*volume, scene);
+    readPoints(node.require("colors"), [&](double value, const JsonNode& color) {
+        style.colors.push_back({value, readColor(color)});
+    });
+    readPoints(node.require("opacities"), [&](double value, const JsonNode& opacity) {
+        style.opacities.push_back({value, static_cast<float>(opacity.number({.low = 0, .high = 1}))});
+    });
+    if (const auto unit = node.find("unit")) style.unit = unit->number({.low = 0, .openLow = true});
+    if (const auto step = node.find("step")) style.step = step->number({.low = 0.01, .high = 8});
+    if (const auto lit = node.find("lit")) style.lit = lit->boolean();
+    const std::string& shown = style.volume.empty() ? scene.volumes.front().name : style.volume;
+    for (const Volume& volume : scene.volumes) {
+        if (volume.surfaces.empty() && volume.name != shown)
+            node.fail("the volume " + inQuotes(volume.name) + " shows nothing",
+                      "give it surfaces, or remove it");
+    }
+    return style;
+}
+
 }  // namespace
+
+bool asksForShadedVolume(const JsonNode& root) {
+    const auto style = root.value().find("style");
+    return style != root.value().end() && style->is_object() &&
+           style->value("kind", nlohmann::json()) == kKinds[2];
+}
 
 void readStyle(const JsonNode& node, Scene& scene) {
     node.object();
@@ -136,8 +184,7 @@ void readStyle(const JsonNode& node, Scene& scene) {
             scene.illustrative = readIllustrative(node);
             return;
         default:
-            kind.failUnavailable("the style " + inQuotes(kind.text()),
-                                 "choose \"layers\" or \"illustrative\", or remove \"style\"");
+            scene.shaded = readShaded(node, scene);
     }
 }
 
@@ -155,6 +202,19 @@ nlohmann::ordered_json styleJson(const IllustrativeStyle& style) {
             {"paper", hexFromLinear(style.paper)},
             {"front", hexFromLinear(style.front)},
             {"back", hexFromLinear(style.back)}};
+}
+
+nlohmann::ordered_json styleJson(const VolumeStyle& style) {
+    nlohmann::ordered_json json{{"kind", kKinds[2]}};
+    if (!style.volume.empty()) json["volume"] = style.volume;
+    for (const auto& [value, color] : style.colors)
+        json["colors"].push_back(nlohmann::ordered_json::array({value, hexFromLinear(color)}));
+    for (const auto& [value, opacity] : style.opacities)
+        json["opacities"].push_back(nlohmann::ordered_json::array({value, shortestDouble(opacity)}));
+    if (style.unit) json["unit"] = *style.unit;
+    json["step"] = style.step;
+    json["lit"] = style.lit;
+    return json;
 }
 
 std::string toJson(const IllustrativeStyle& style) {

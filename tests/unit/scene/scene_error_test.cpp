@@ -157,9 +157,7 @@ INSTANTIATE_TEST_SUITE_P(NotAvailable, SceneErrors,
                                                "not available in this version"},
                                          Wrong{"/terrain", "{}", nullptr, "not available in this version"},
                                          Wrong{"/ocean", "{}", nullptr, "not available in this version"},
-                                         Wrong{"/sky", "{}", nullptr, "not available in this version"},
-                                         Wrong{"/style", R"({"kind": "volume"})", "/style/kind",
-                                               "not available in this version"}));
+                                         Wrong{"/sky", "{}", nullptr, "not available in this version"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Styles, SceneErrors,

@@ -69,6 +69,49 @@ TEST(StyleJson, DefaultColoursAreThoseThatTheSchemaNames) {
     EXPECT_EQ(style.back, *linearFromHex("#c42020"));
 }
 
+TEST(StyleJson, EveryKeyOfAMediumIsReadAndWritten) {
+    const Scene scene =
+        parseWith(R"({"kind": "volume", "volume": "other", "colors": [[-1, "#ff0000"], [2.5, "#0000ff"]],
+        "opacities": [[0, 0], [1, 0.25], [3, 1]], "unit": 2, "step": 0.25, "lit": false})");
+    VolumeStyle style{.volume = "other",
+                      .colors = {{-1, {1, 0, 0}}, {2.5, {0, 0, 1}}},
+                      .opacities = {{0, 0}, {1, 0.25f}, {3, 1}}};
+    style.unit = 2;
+    style.step = 0.25;
+    style.lit = false;
+    EXPECT_EQ(scene.shaded, style);
+    EXPECT_EQ(parseScene(toJson(scene), "", "round trip"), scene) << toJson(scene);
+}
+
+TEST(StyleJson, ColoursAndOpacitiesOfAMediumAreNeededAndGrow) {
+    EXPECT_THROW(parseWith(R"({"kind": "volume", "colors": [[0, "#ff0000"]]})"), Error);
+    EXPECT_THROW(parseWith(R"({"kind": "volume", "opacities": [[0, 1]]})"), Error);
+    EXPECT_THROW(parseWith(R"({"kind": "volume", "colors": [], "opacities": [[0, 1]]})"), Error);
+    EXPECT_THROW(
+        parseWith(R"({"kind": "volume", "colors": [[0, "#ff0000"]], "opacities": [[0, 1], [0, 1]]})"), Error);
+    EXPECT_THROW(parseWith(R"({"kind": "volume", "colors": ["#ff0000"], "opacities": [[0, 1]]})"), Error);
+}
+
+/// A medium needs no surface, but a volume that shows nothing is a mistake.
+TEST(StyleJson, OnlyTheVolumeOfAMediumMayHaveNoSurfaces) {
+    const std::string one = R"({"version": 1, "volumes": [{"name": "a", "series": "a.vdb"}], "style":
+        {"kind": "volume", "colors": [[0, "#ff0000"]], "opacities": [[0, 1]]}})";
+    EXPECT_TRUE(parseScene(one, "", "scene.json").volumes[0].surfaces.empty());
+    const std::string two =
+        R"({"version": 1, "volumes": [{"name": "a", "series": "a.vdb"}, {"name": "b", "series":
+        "b.vdb"}], "style": {"kind": "volume", "colors": [[0, "#ff0000"]], "opacities": [[0, 1]]}})";
+    EXPECT_THROW(parseScene(two, "", "scene.json"), Error);
+}
+
+TEST(VolumeStyle, IsLinearBetweenItsPointsAndConstantBeyond) {
+    const VolumeStyle style{.colors = {{0, {1, 0, 0}}, {2, {0, 1, 0}}},
+                            .opacities = {{1, 0}, {2, 0.5f}, {4, 1}}};
+    EXPECT_EQ(transferAt(style, -1), glm::vec4(1, 0, 0, 0));
+    EXPECT_EQ(transferAt(style, 1.5), glm::vec4(0.25f, 0.75f, 0, 0.25f));
+    EXPECT_EQ(transferAt(style, 3), glm::vec4(0, 1, 0, 0.75f));
+    EXPECT_EQ(transferAt(style, 9), glm::vec4(0, 1, 0, 1));
+}
+
 /// 0 < beta < alpha < 1 in the paper (2).
 TEST(StyleJson, BetaIsAtMostAlpha) {
     EXPECT_EQ(parseWith(R"({"kind": "illustrative", "alpha": 0.1})").illustrative->beta, 0.1f);
