@@ -1,52 +1,24 @@
 #version 450 core
 #include "lib/lighting.glsl"
-#include "lib/volume.glsl"
+#include "lib/volume_ray.glsl"
 
 // Z. Nagy and R. Klein, "Depth-Peeling for Texture-Based Volume Rendering", 2003: the crossings of an
 // iso-value along the ray are the layers, counted in one traversal whatever their number. A layer is passed
 // where the sign of value - iso changes; the first sample, and the first one after missing ones, sets the sign.
 
-in vec2 clipPlace;
 layout(location = 0) out vec4 opaqueColor;
-
-#ifdef OPAQUE_IN_FRONT
-layout(binding = 1) uniform sampler2D opaqueDepth;
-#endif
 
 const int kComposed = 2;
 const int kSilhouettes = 3;
 const int kRefinements = 5;
 // Of a step, down to where values end.
 const int kBorderHalvings = 8;
-// Less than that no 8-bit picture shows.
-const float kOpaqueEnough = 1.0 / 1024.0;
-// Of a step, so that rounding does not stay in the brick.
-const float kNudge = 1e-3;
-// More than any volume has on a ray; without a bound a camera of NaNs would never end.
-const int kMostLooks = 1 << 18;
 
-vec3 start = vec3(0.0);  // where the ray enters, local: what is far away is measured from there
-vec3 way = vec3(0.0);    // of the ray, local; t counts from the start
-vec3 toEye = vec3(0.0);  // in the world, length 1
-ivec3 cell = ivec3(0);
-RayPart part = kNoPart;
-float last = 0.0;        // t of the ray's end
-float entry = 0.0;       // distance of the start along the view axis
 int layer = 0;           // met so far
 int counted = 0;         // of them in the picture
 vec3 color = vec3(0.0);  // times opacity
 float transmittance = 1.0;
 float wantedDepth = 0.0;
-
-vec3 indexOnRay(float t) {
-    vec3 p = start + t * way;
-    cell = cellAt(p, cell);
-    vec3 index = clamp(indexAt(p, cell), vec3(0.0), vec3(samples.xyz - 1));
-    // On a face of the domain, not beside it by rounding: the samples there alone decide.
-    if (t <= 0.0 && part.beginAxis >= 0) index[part.beginAxis] = roundEven(index[part.beginAxis]);
-    if (t >= last && part.endAxis >= 0) index[part.endAxis] = roundEven(index[part.endAxis]);
-    return index;
-}
 
 // Between two samples on either side of the iso-value: the rule of false position, halving the end that
 // stays (Illinois).
@@ -117,17 +89,6 @@ bool passLayer(float t) {
     color = mix(color, lit, 1.0 / float(counted));
     transmittance = 0.0;
     return layer == layersWanted;
-}
-
-// Where the ray leaves a brick.
-float brickEnd(ivec3 brick) {
-    float end = 3e38;
-    for (int k = 0; k < 3; ++k) {
-        if (way[k] == 0.0) continue;
-        int side = way[k] > 0.0 ? min((brick[k] + 1) * kBrickCells, samples[k] - 1) : brick[k] * kBrickCells;
-        end = min(end, (coordinateOf(k, side) - start[k]) / way[k]);
-    }
-    return end;
 }
 
 // Samples lie at even steps where the axes are even, whichever bricks are left out; the last one lies at
@@ -201,20 +162,7 @@ void traverse() {
 }
 
 void main() {
-    vec2 clip = clipPlace - shift;
-    way = forward.xyz + clip.x * right.xyz + clip.y * up.xyz;
-    toEye = -normalize(worldFromLocal * way);
-    part = visiblePart(way);
-#ifdef OPAQUE_IN_FRONT
-    float depth = texelFetch(opaqueDepth, ivec2(gl_FragCoord.xy), 0).r;
-    if (depth > 0.0 && nearDistance / depth < part.end) {
-        part.end = nearDistance / depth;
-        part.endAxis = -1;
-    }
-#endif
-    entry = part.begin;
-    last = part.end - part.begin;
-    start = eye.xyz + entry * way;
+    beginRay();
     if (last > 0.0) traverse();
 #ifdef MEASURE
     opaqueColor = vec4(wantedDepth, float(layer), 0.0, 1.0);

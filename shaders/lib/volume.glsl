@@ -23,6 +23,10 @@ layout(std140, binding = 3) uniform Volume {
     int show;                // LayerStyle::Show
     float silhouette;
     int firstLayer;          // before it layers only count
+    float transferLow;       // value of the first entry of the transfer function
+    float transferScale;     // its entries a value
+    float perUnit;           // one over the world length that its opacities are meant for
+    int litByGradient;
 };
 
 layout(binding = 16) uniform sampler3D valuesA;

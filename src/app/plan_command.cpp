@@ -34,9 +34,9 @@ MeasuredPlan measure(const Scene& scene, const SceneMeshes& meshes) {
     MeshUploads uploads;
     const std::vector<MeshId> ids = uploads.replace(meshes.meshes(), renderer.meshes());
     for (std::size_t i = 0; i < frame.draws.size(); ++i) frame.draws[i].mesh = ids[i];
-    LayerUploads layers;
-    layers.replace(meshes.layers, renderer.volumes());
-    frame.layerDraw = layers.draw(scene, 0);
+    SampleUploads samples;
+    samples.replace(meshes.samples, renderer.volumes());
+    samples.describe(scene, 0, frame);
     renderer.render(frame);
     renderer.setTiming(true);
     renderer.render(frame);

@@ -13,21 +13,14 @@ namespace {
 using enum PassKind;
 using Method = TransparencyMethod;
 
-constexpr std::array<std::string_view, kPassKindCount> kNames{"opaque",
-                                                              "layers",
-                                                              "first surface",
-                                                              "second surface",
-                                                              "secondary geometry",
-                                                              "illustration",
-                                                              "back-face depth",
-                                                              "blending",
-                                                              "attenuation and emission",
-                                                              "integer sums",
-                                                              "peeled layer",
-                                                              "layer blend",
-                                                              "fragment lists",
-                                                              "resolve",
-                                                              "accumulation",
+constexpr std::array<std::string_view, kPassKindCount> kNames{"opaque",         "layers",
+                                                              "shaded volume",  "first surface",
+                                                              "second surface", "secondary geometry",
+                                                              "illustration",   "back-face depth",
+                                                              "blending",       "attenuation and emission",
+                                                              "integer sums",   "peeled layer",
+                                                              "layer blend",    "fragment lists",
+                                                              "resolve",        "accumulation",
                                                               "presentation"};
 
 std::pair<Method, std::string> chooseMethod(const PlanInput& input) {
@@ -113,6 +106,7 @@ std::string whyNot(PassKind kind, const FramePlan& plan, const PlanInput& input)
     if (kind == opaque && !input.illustrative)
         return "no opaque surface is visible, and the background needs no drawing";
     if (kind == layers) return "no volume is shown in layers";
+    if (kind == shadedVolume) return "no volume is shown as a medium";
     if (kind == illustration || (isIllustrative(kind) && !input.illustrative))
         return "the style is not illustrative";
     if (kind == secondaryGeometry) return "no secondary geometry is visible";
@@ -159,6 +153,11 @@ FramePlan planFrame(const PlanInput& input) {
                 input.betweenKeyFrames
                     ? "rays count the layers of an iso-surface in the samples of two key frames"
                     : "rays count the layers of an iso-surface in the samples of one key frame");
+        }
+        if (input.shadedVolume) {
+            add(plan, shadedVolume,
+                input.betweenKeyFrames ? "rays gather the light of the samples of two key frames"
+                                       : "rays gather the light of the samples of one key frame");
         }
         if (input.illustrative) planIllustration(plan, input);
         if (input.semiTransparentSurfaces > 0) planComposition(plan, input);

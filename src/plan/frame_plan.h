@@ -12,6 +12,7 @@ namespace isoglass {
 enum class PassKind {
     opaque,                  ///< background and opaque surfaces: color and the depth that stays
     layers,                  ///< an iso-surface's layers by rays through the samples, over what is opaque
+    shadedVolume,            ///< a volume's light and absorption by rays through the samples, likewise
     firstSurface,            ///< illustrative: normal and distance of what is seen first
     secondSurface,           ///< illustrative: the same of what is seen behind that
     secondaryGeometry,       ///< illustrative: color and brightness of what stays visible behind both
@@ -27,7 +28,7 @@ enum class PassKind {
     accumulation,            ///< the same without exposure and sRGB, added to the linear image
     presentation,            ///< linear image to exposure and sRGB
 };
-inline constexpr int kPassKindCount = 16;
+inline constexpr int kPassKindCount = 17;
 
 /// The name that people read, e.g. "back-face depth".
 std::string_view passName(PassKind kind);
@@ -37,10 +38,11 @@ struct PlanInput {
     int opaqueSurfaces = 0;           ///< visible ones
     int semiTransparentSurfaces = 0;  ///< visible ones: opacity above 0 and below 1
     bool layerStyle = false;          ///< a volume is shown in layers
+    bool shadedVolume = false;        ///< a volume is shown as a medium
     bool illustrative = false;        ///< all surfaces are drawn as lines; the counts above are then 0
     int primarySurfaces = 0;          ///< visible ones, then
     int secondarySurfaces = 0;        ///< likewise
-    bool betweenKeyFrames = false;    ///< and its time lies between two key frames
+    bool betweenKeyFrames = false;    ///< and its time, in either way, lies between two key frames
     TransparencyMethod method = TransparencyMethod::automatic;
     int layers = 4;             ///< of the method peel, at least 1
     bool reproducible = false;  ///< the same bits for any order of draws and triangles

@@ -21,9 +21,11 @@ PlannedWork planExtraction(const VolumeState& volume, std::size_t surface) {
 }
 
 PlannedWork planSamples(const VolumeState& volume) {
-    if (!volume.layered) return {WorkKind::samples, 0, false, "no ray goes through the volume"};
+    if (!volume.layered && !volume.shaded)
+        return {WorkKind::samples, 0, false, "no ray goes through the volume"};
     if (volume.clippedAway) return {WorkKind::samples, 0, false, "a clip plane takes the whole volume away"};
-    return {WorkKind::samples, 0, true, "rays look for layers in them"};
+    return {WorkKind::samples, 0, true,
+            volume.layered ? "rays look for layers in them" : "rays gather their light"};
 }
 
 }  // namespace

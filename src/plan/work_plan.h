@@ -22,6 +22,7 @@ struct VolumeState {
     bool clippedAway = false;               ///< its whole box is on the far side of a clip plane
     std::vector<float> surfaceOpacities{};  ///< 0 and below is invisible
     bool layered = false;                   ///< the first surface is shown in layers, through the samples
+    bool shaded = false;                    ///< it is shown as a medium, through the samples
 };
 
 struct PlannedWork {

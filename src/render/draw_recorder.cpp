@@ -130,7 +130,7 @@ std::vector<DrawRecorder::PreparedDraw>& DrawRecorder::listOf(const SurfaceDraw&
 void DrawRecorder::prepare(const FrameDescription& frame, const MeshStore& meshes,
                            const VolumeStore& volumes) {
     frame_ = frame;
-    volume_.prepare(frame.layerDraw, volumes);
+    volume_.prepare(frame.layerDraw, frame.shadedDraw, volumes);
     meshes_ = &meshes;
     visible_ = visibleDraws(frame_, meshes);
     for (auto* list : {&opaque_, &semiTransparent_, &primary_, &secondary_}) list->clear();

@@ -5,6 +5,7 @@
 #include "render/layer_draw.h"
 #include "render/legend.h"
 #include "render/mesh_store.h"
+#include "render/shaded_draw.h"
 #include "scene/scene.h"
 
 #include <glm/mat4x4.hpp>
@@ -51,8 +52,9 @@ struct SurfaceDraw {
 struct FrameDescription {
     CameraView camera;
     std::vector<SurfaceDraw> draws{};
-    std::optional<LayerDraw> layerDraw{};  ///< an iso-surface in layers, over what is opaque
-    /// Draws lines in place of lit surfaces: whatever is visible counts as opaque. Not with `layerDraw`.
+    std::optional<LayerDraw> layerDraw{};    ///< an iso-surface in layers, over what is opaque
+    std::optional<ShadedDraw> shadedDraw{};  ///< a volume as a medium, likewise; not with `layerDraw`
+    /// Draws lines in place of lit surfaces: whatever is visible counts as opaque. Not with a volume.
     std::optional<IllustrativeStyle> illustration{};
     LinearColor background{0};
     /// Below 1 the picture has alpha: that of the background, and what surfaces cover of it.

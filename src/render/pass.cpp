@@ -36,7 +36,9 @@ class Declarer {
             case PassKind::opaque:
                 return opaque(planned);
             case PassKind::layers:
-                return layers(planned);
+                return throughVolume(planned, "layers.frag");
+            case PassKind::shadedVolume:
+                return throughVolume(planned, "volume.frag");
             case PassKind::firstSurface:
                 return seenSurface(planned, 0, Target::firstSurface);
             case PassKind::secondSurface:
@@ -98,8 +100,8 @@ class Declarer {
     }
 
     /// Over the opaque color, or over the background in its place.
-    PassDeclaration layers(const PlannedPass& planned) const {
-        PassDeclaration pass = fullScreen(planned, "layers.frag");
+    PassDeclaration throughVolume(const PlannedPass& planned, const char* fragmentShader) const {
+        PassDeclaration pass = fullScreen(planned, fragmentShader);
         pass.writes = {{Target::opaqueColor, hasOpaque_ ? Begin::keep : Begin::fillBackground}};
         pass.state.blend[0] = Blend::cover;
         if (hasOpaque_) {
@@ -239,7 +241,9 @@ class Declarer {
         const auto [shader, front] = whatIsInFront();
         PassDeclaration pass = fullScreen(planned, shader);
         if (front) pass.reads.push_back(*front);
-        if (hasOpaque_ || plan_.runs(PassKind::layers) || plan_.runs(PassKind::illustration)) {
+        const auto drawn = {PassKind::opaque, PassKind::layers, PassKind::shadedVolume,
+                            PassKind::illustration};
+        if (std::ranges::any_of(drawn, [this](PassKind kind) { return plan_.runs(kind); })) {
             pass.reads.push_back(Target::opaqueColor);
             pass.defines.push_back("OPAQUE_BEHIND");
         }
@@ -296,7 +300,7 @@ std::vector<PassDeclaration> declarePasses(const FramePlan& plan, int subframe) 
 
 void specialize(std::span<PassDeclaration> passes, const VolumeVariant& variant) {
     for (PassDeclaration& pass : passes) {
-        if (pass.planned.kind != PassKind::layers) continue;
+        if (pass.planned.kind != PassKind::layers && pass.planned.kind != PassKind::shadedVolume) continue;
         pass.defines.insert(pass.defines.end(), variant.defines.begin(), variant.defines.end());
         pass.volumeUnits = variant.units;
     }

@@ -53,8 +53,8 @@ void checkCount(int count, int most, const char* what) {
 void check(const FrameDescription& frame) {
     checkCount(frame.samples, kMostSamples, "samples a pixel");
     checkCount(frame.layers, kMostLayers, "layers to peel");
-    if (frame.illustration && frame.layerDraw)
-        throw std::invalid_argument("an illustration does not show layers");
+    if (frame.illustration.has_value() + frame.layerDraw.has_value() + frame.shadedDraw.has_value() > 1)
+        throw std::invalid_argument("a frame has one style");
 }
 
 }  // namespace
@@ -68,10 +68,12 @@ FramePlan Renderer::planOf(const FrameDescription& frame) {
     return planFrame({.opaqueSurfaces = recorder_.opaqueCount(),
                       .semiTransparentSurfaces = recorder_.semiTransparentCount(),
                       .layerStyle = frame.layerDraw.has_value(),
+                      .shadedVolume = frame.shadedDraw.has_value(),
                       .illustrative = frame.illustration.has_value(),
                       .primarySurfaces = recorder_.primaryCount(),
                       .secondarySurfaces = recorder_.secondaryCount(),
-                      .betweenKeyFrames = frame.layerDraw && frame.layerDraw->fraction > 0,
+                      .betweenKeyFrames = (frame.layerDraw && frame.layerDraw->fraction > 0) ||
+                                          (frame.shadedDraw && frame.shadedDraw->fraction > 0),
                       .method = frame.method,
                       .layers = frame.layers,
                       .reproducible = frame.reproducible,

@@ -80,6 +80,10 @@ struct VolumeUniforms {
     int show;
     float silhouette;
     int firstLayer;
+    float transferLow;
+    float transferScale;
+    float perUnit;
+    int litByGradient;  ///< 0 or 1
     float padding[1] = {};
 };
 

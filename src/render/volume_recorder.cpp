@@ -14,7 +14,15 @@
 namespace isoglass {
 namespace {
 
-enum Unit { valuesA = 16, valuesB = 17, rangesA = 18, rangesB = 19, axisTables = 20 };
+enum Unit {
+    valuesA = 16,
+    valuesB = 17,
+    rangesA = 18,
+    rangesB = 19,
+    axisTables = 20,
+    transfer = 21,
+    visibleRanges = 22
+};
 
 /// Of a step: axes that are off by less are even.
 constexpr double kEven = 1e-6;
@@ -64,37 +72,46 @@ glm::vec4 direction(const glm::dvec3& v) {
 
 VolumeRecorder::VolumeRecorder() : uniforms_(gl::Buffer::updatable(sizeof(VolumeUniforms))) {}
 
-void VolumeRecorder::prepare(const std::optional<LayerDraw>& draw, const VolumeStore& volumes) {
-    draw_ = draw;
+void VolumeRecorder::prepare(const std::optional<LayerDraw>& layers, const std::optional<ShadedDraw>& shaded,
+                             const VolumeStore& volumes) {
+    layers_ = layers;
+    shaded_ = shaded;
     volumes_ = &volumes;
-    if (!draw_) return;
-    if (draw_->planes.size() > kMostVolumePlanes) {
-        throw Error(std::to_string(draw_->planes.size()) + " planes cut a volume that is shown in layers",
+    if (draw() == nullptr) return;
+    if (draw()->planes.size() > kMostVolumePlanes) {
+        throw Error(std::to_string(draw()->planes.size()) + " planes cut a volume that rays go through",
                     "clip", "use at most " + std::to_string(kMostVolumePlanes));
     }
-    evenAxes_ = std::ranges::all_of(draw_->axes, isEven);
+    evenAxes_ = std::ranges::all_of(draw()->axes, isEven);
+}
+
+const VolumeDraw* VolumeRecorder::draw() const {
+    if (layers_) return &*layers_;
+    return shaded_ ? &*shaded_ : nullptr;
 }
 
 VolumeVariant VolumeRecorder::variant() const {
     VolumeVariant variant;
-    if (!draw_) return variant;
-    const bool two = draw_->fraction > 0;
+    if (draw() == nullptr) return variant;
+    const bool two = draw()->fraction > 0;
     if (two) variant.defines.push_back("TWO_KEY_FRAMES");
     if (!evenAxes_) variant.defines.push_back("UNEVEN_AXES");
-    if (draw_->wholeRay) variant.defines.push_back("WHOLE_RAY");
-    if (draw_->output == LayerDraw::Output::measure) variant.defines.push_back("MEASURE");
+    if (layers_ && layers_->wholeRay) variant.defines.push_back("WHOLE_RAY");
+    if (layers_ && layers_->output == LayerDraw::Output::measure) variant.defines.push_back("MEASURE");
     variant.units = {valuesA, rangesA};
     if (two) variant.units = {valuesA, valuesB, rangesA, rangesB};
     if (!evenAxes_) variant.units.push_back(axisTables);
+    if (shaded_) variant.units.insert(variant.units.end(), {transfer, visibleRanges});
     return variant;
 }
 
 void VolumeRecorder::upload(const CameraView& camera, glm::dvec2 clipShift, double nearDistance) {
-    if (!draw_) return;
+    if (draw() == nullptr) return;
+    const VolumeDraw& volume = *draw();
     VolumeUniforms uniforms{};
     glm::dvec3 middle, turned;
     for (int k = 0; k < 3; ++k) {
-        const std::vector<double>& axis = draw_->axes[static_cast<std::size_t>(k)];
+        const std::vector<double>& axis = volume.axes[static_cast<std::size_t>(k)];
         const LocalAxis local = localAxis(axis);
         middle[k] = local.middle;
         turned[k] = local.direction;
@@ -104,7 +121,7 @@ void VolumeRecorder::upload(const CameraView& camera, glm::dvec2 clipShift, doub
         uniforms.indexPerUnit[k] = static_cast<float>(static_cast<double>(axis.size() - 1) / length);
         uniforms.samples[k] = static_cast<int>(axis.size());
     }
-    const glm::dmat4 seriesFromWorld = glm::inverse(draw_->worldFromSeries);
+    const glm::dmat4 seriesFromWorld = glm::inverse(volume.worldFromSeries);
     const glm::dmat3 localFromWorld =
         glm::dmat3(glm::dvec3(turned.x, 0, 0), glm::dvec3(0, turned.y, 0), glm::dvec3(0, 0, turned.z)) *
         glm::dmat3(seriesFromWorld);
@@ -118,35 +135,61 @@ void VolumeRecorder::upload(const CameraView& camera, glm::dvec2 clipShift, doub
     uniforms.up = direction(height * (localFromWorld * view.up));
     uniforms.worldFromLocal = columns(glm::inverse(localFromWorld));
     uniforms.normalFromLocal = columns(scaledToOne(glm::transpose(localFromWorld)));
-    for (std::size_t i = 0; i < draw_->planes.size(); ++i) {
-        const glm::dvec4& plane = draw_->planes[i];
+    for (std::size_t i = 0; i < volume.planes.size(); ++i) {
+        const glm::dvec4& plane = volume.planes[i];
         uniforms.planes[i] =
             glm::vec4(glm::dvec4(turned * glm::dvec3(plane), plane.w + glm::dot(glm::dvec3(plane), middle)));
     }
-    uniforms.planeCount = static_cast<int>(draw_->planes.size());
+    uniforms.planeCount = static_cast<int>(volume.planes.size());
     uniforms.shift = clipShift;
-    uniforms.fraction = draw_->fraction;
-    uniforms.iso = draw_->iso;
+    uniforms.fraction = volume.fraction;
     uniforms.nearDistance = static_cast<float>(nearDistance);
-    const LayerStyle& style = draw_->style;
+    if (layers_) setLayers(uniforms);
+    if (shaded_) setMedium(uniforms);
+    uniforms_.write(0, std::as_bytes(std::span(&uniforms, 1)));
+    if (!evenAxes_) uploadAxes();
+}
+
+void VolumeRecorder::setLayers(VolumeUniforms& uniforms) const {
+    const LayerStyle& style = layers_->style;
+    uniforms.iso = layers_->iso;
     uniforms.stepCells = static_cast<float>(style.step);
     uniforms.layersWanted = style.count;
     uniforms.firstLayer = style.show == LayerStyle::Show::nth ? style.count : style.first;
     uniforms.show = static_cast<int>(style.show);
     uniforms.silhouette = static_cast<float>(style.silhouette);
     for (int layer = 0; layer < style.count; ++layer)
-        uniforms.layerColors[static_cast<std::size_t>(layer)] = {layerColor(style, layer, draw_->color),
+        uniforms.layerColors[static_cast<std::size_t>(layer)] = {layerColor(style, layer, layers_->color),
                                                                  layerOpacity(style, layer)};
-    uniforms_.write(0, std::as_bytes(std::span(&uniforms, 1)));
-    if (!evenAxes_) uploadAxes();
+}
+
+void VolumeRecorder::setMedium(VolumeUniforms& uniforms) {
+    const VolumeStyle& style = shaded_->style;
+    if (tableStyle_ != style) {
+        table_ = makeTransferTable(style);
+        constexpr int kEntries = TransferTable::kEntries, kBins = TransferTable::kBins;
+        transfer_.emplace(GL_RGBA32F, glm::ivec2(kEntries, 1));
+        visibleRanges_.emplace(GL_R32F, glm::ivec2(kBins));
+        glTextureSubImage2D(transfer_->name(), 0, 0, 0, kEntries, 1, GL_RGBA, GL_FLOAT,
+                            table_.entries.data());
+        glTextureSubImage2D(visibleRanges_->name(), 0, 0, 0, kBins, kBins, GL_RED, GL_FLOAT,
+                            table_.visible.data());
+        tableStyle_ = style;
+    }
+    uniforms.stepCells = static_cast<float>(style.step);
+    uniforms.transferLow = table_.low;
+    uniforms.transferScale = table_.scale;
+    uniforms.perUnit = static_cast<float>(1 / style.unit.value());
+    uniforms.litByGradient = style.lit;
 }
 
 void VolumeRecorder::uploadAxes() {
     std::size_t longest = 0;
-    for (const auto& axis : draw_->axes) longest = std::max(longest, axis.size());
+    const auto& axes = draw()->axes;
+    for (const auto& axis : axes) longest = std::max(longest, axis.size());
     std::vector<float> rows(3 * longest, 0);
     for (std::size_t k = 0; k < 3; ++k) {
-        const auto& axis = draw_->axes[k];
+        const auto& axis = axes[k];
         const LocalAxis local = localAxis(axis);
         for (std::size_t i = 0; i < axis.size(); ++i)
             rows[k * longest + i] = static_cast<float>(local(axis[i]));
@@ -157,14 +200,16 @@ void VolumeRecorder::uploadAxes() {
 }
 
 void VolumeRecorder::bind() const {
-    const GpuVolume& first = volumes_->get(draw_->first);
-    const GpuVolume& second = draw_->fraction > 0 ? volumes_->get(draw_->second) : first;
+    const GpuVolume& first = volumes_->get(draw()->first);
+    const GpuVolume& second = draw()->fraction > 0 ? volumes_->get(draw()->second) : first;
     glBindBufferBase(GL_UNIFORM_BUFFER, VolumeUniforms::kBinding, uniforms_.name());
     glBindTextureUnit(valuesA, first.values.name());
     glBindTextureUnit(valuesB, second.values.name());
     glBindTextureUnit(rangesA, first.ranges.name());
     glBindTextureUnit(rangesB, second.ranges.name());
     glBindTextureUnit(axisTables, axisTables_ ? axisTables_->name() : 0);
+    glBindTextureUnit(transfer, transfer_ ? transfer_->name() : 0);
+    glBindTextureUnit(visibleRanges, visibleRanges_ ? visibleRanges_->name() : 0);
 }
 
 }  // namespace isoglass

@@ -3,12 +3,16 @@
 #include "gl/objects.h"
 #include "render/camera.h"
 #include "render/layer_draw.h"
+#include "render/shaded_draw.h"
+#include "render/transfer_table.h"
 
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace isoglass {
+
+struct VolumeUniforms;
 
 /// What the shaders of a pass through a volume are made for.
 struct VolumeVariant {
@@ -21,9 +25,10 @@ class VolumeRecorder {
   public:
     VolumeRecorder();
 
-    /// Throws Error for more planes than the shaders take. `volumes` must hold the samples until the frame is
-    /// drawn.
-    void prepare(const std::optional<LayerDraw>& draw, const VolumeStore& volumes);
+    /// One of both at most. Throws Error for more planes than the shaders take. `volumes` must hold the
+    /// samples until the frame is drawn.
+    void prepare(const std::optional<LayerDraw>& layers, const std::optional<ShadedDraw>& shaded,
+                 const VolumeStore& volumes);
 
     VolumeVariant variant() const;
 
@@ -35,13 +40,22 @@ class VolumeRecorder {
     void bind() const;
 
   private:
+    /// Of the two the one that is there, or null.
+    const VolumeDraw* draw() const;
     void uploadAxes();
+    void setLayers(VolumeUniforms& uniforms) const;
+    void setMedium(VolumeUniforms& uniforms);
 
-    std::optional<LayerDraw> draw_;
+    std::optional<LayerDraw> layers_;
+    std::optional<ShadedDraw> shaded_;
     const VolumeStore* volumes_ = nullptr;
     bool evenAxes_ = true;
     gl::Buffer uniforms_;
     std::optional<gl::Texture> axisTables_;
+    std::optional<VolumeStyle> tableStyle_;  ///< what the two tables are made from
+    TransferTable table_;
+    std::optional<gl::Texture> transfer_;
+    std::optional<gl::Texture> visibleRanges_;
 };
 
 }  // namespace isoglass

@@ -1,11 +1,10 @@
 // The style "layers" from the series to the picture.
 
-#include "pipeline/scene_layers.h"
-
 #include "base/error.h"
 #include "gl/headless_context.h"
 #include "pipeline/batch.h"
 #include "pipeline/render_loop.h"
+#include "pipeline/scene_samples.h"
 #include "support/terrain_lattice.h"
 #include "unit/volume/series_fixture.h"
 
@@ -92,20 +91,22 @@ TEST_F(SceneLayersTest, EachKeyFrameIsMadeAndUploadedOnce) {
     SceneExtractor extractor(scene_, {});
     gl::HeadlessContext context;
     Renderer renderer(context.context());
-    LayerUploads uploads;
+    SampleUploads uploads;
     std::set<VolumeId> seen;
     std::set<const VolumeSamples*> made;
-    std::vector<SceneLayers> kept;
+    std::vector<SceneSamples> kept;
     for (int i = 0; i <= 20; ++i) {
         const SceneMeshes meshes = extract(extractor, i / 20.0);
-        ASSERT_TRUE(meshes.layers);
-        kept.push_back(*meshes.layers);
-        uploads.replace(meshes.layers, renderer.volumes());
-        const auto draw = uploads.draw(scene_, 0);
+        ASSERT_TRUE(meshes.samples);
+        kept.push_back(*meshes.samples);
+        uploads.replace(meshes.samples, renderer.volumes());
+        FrameDescription frame;
+        uploads.describe(scene_, 0, frame);
+        const auto& draw = frame.layerDraw;
         ASSERT_TRUE(draw);
         seen.insert({draw->first, draw->second});
-        made.insert(meshes.layers->first.get());
-        if (meshes.layers->second) made.insert(meshes.layers->second.get());
+        made.insert(meshes.samples->first.get());
+        if (meshes.samples->second) made.insert(meshes.samples->second.get());
         EXPECT_LE(renderer.volumes().count(), 2u);
         EXPECT_EQ(draw->fraction, static_cast<float>(meshes.times[0].fraction));
     }
@@ -113,7 +114,9 @@ TEST_F(SceneLayersTest, EachKeyFrameIsMadeAndUploadedOnce) {
     EXPECT_EQ(seen.size(), kKeyFrames);
     uploads.replace(std::nullopt, renderer.volumes());
     EXPECT_EQ(renderer.volumes().count(), 0u);
-    EXPECT_FALSE(uploads.draw(scene_, 0));
+    FrameDescription frame;
+    uploads.describe(scene_, 0, frame);
+    EXPECT_FALSE(frame.layerDraw);
 }
 
 TEST_F(SceneLayersTest, OtherSurfacesAreDrawnAsEver) {
@@ -128,7 +131,7 @@ TEST_F(SceneLayersTest, OtherSurfacesAreDrawnAsEver) {
 TEST_F(SceneLayersTest, WhatIsClippedAwayNeedsNothing) {
     scene_.clip = {{.plane = {0, 0, 1, -5}}};
     SceneExtractor extractor(scene_, {});
-    EXPECT_FALSE(extract(extractor, 0.6).layers);
+    EXPECT_FALSE(extract(extractor, 0.6).samples);
     EXPECT_EQ(extractor.cache().bytes(), 0u);
 }
 
@@ -138,8 +141,8 @@ TEST_F(SceneLayersTest, ClipPlanesReachTheRays) {
     scene_.volumes[0].clip = {{.plane = {1, 0, 0, 0.25}}};
     SceneExtractor extractor(scene_, {});
     const SceneMeshes meshes = extract(extractor, 0);
-    ASSERT_TRUE(meshes.layers);
-    EXPECT_EQ(meshes.layers->planes, (std::vector<glm::dvec4>{{1, 0, 0, 0.25}, {0, 0, 1, 0}}));
+    ASSERT_TRUE(meshes.samples);
+    EXPECT_EQ(meshes.samples->planes, (std::vector<glm::dvec4>{{1, 0, 0, 0.25}, {0, 0, 1, 0}}));
 }
 
 TEST_F(SceneLayersTest, SeriesWithHeightsAreRefused) {
@@ -162,13 +165,13 @@ TEST_F(SceneLayersTest, SeriesWithHeightsAreRefused) {
     EXPECT_THROW(SceneExtractor(scene_, {}), Error);
 }
 
-TEST(LayerSamples, PeriodicAxesAreClosedAndMissingSamplesStay) {
+TEST(DenseSamples, PeriodicAxesAreClosedAndMissingSamplesStay) {
     Lattice lattice = makeUniformLattice({6, 5, 4}, glm::dvec3(0), glm::dvec3(1));
     lattice.axes[0].period = 6;
     std::vector<float> values = randomFloats({6, 5, 4}, 3);
     removeSamples(values, 10, 4);
     const auto frame = makeKeyFrame(lattice, values);
-    LayerSamples cache;
+    DenseSamples cache;
     const auto samples = cache.of({}, *frame, 1);
     EXPECT_EQ(samples->dims, glm::ivec3(7, 5, 4));
     EXPECT_EQ(sampleAxes(lattice)[0].size(), 7u);
@@ -186,9 +189,9 @@ TEST(LayerSamples, PeriodicAxesAreClosedAndMissingSamplesStay) {
     EXPECT_EQ(cache.of({}, *frame, 1), samples);
 }
 
-TEST(LayerSamples, TooManySamplesTakeACoarserLevel) {
+TEST(DenseSamples, TooManySamplesTakeACoarserLevel) {
     const auto levelOf = [](int samples) {
-        return LayerSamples::levelFor(makeUniformLattice(glm::ivec3(samples), glm::dvec3(0), glm::dvec3(1)));
+        return DenseSamples::levelFor(makeUniformLattice(glm::ivec3(samples), glm::dvec3(0), glm::dvec3(1)));
     };
     EXPECT_EQ(levelOf(256), 0);
     EXPECT_EQ(levelOf(406), 0);  // 406^3 floats are 255.3 MiB

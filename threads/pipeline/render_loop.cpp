@@ -66,7 +66,7 @@ void RenderLoop::replaceMeshes(Renderer& renderer, FrameMeshes meshes) {
     std::vector<SurfaceDraw> draws = surfaceDraws(scene_, meshes.meshes);
     const std::vector<MeshId> ids = meshes_.replace(meshes.meshes.meshes(), renderer.meshes());
     for (std::size_t i = 0; i < draws.size(); ++i) draws[i].mesh = ids[i];
-    layers_.replace(meshes.meshes.layers, renderer.volumes());
+    samples_.replace(meshes.meshes.samples, renderer.volumes());
     draws_ = std::move(draws);
     shown_ = std::move(meshes);
 }
@@ -74,16 +74,16 @@ void RenderLoop::replaceMeshes(Renderer& renderer, FrameMeshes meshes) {
 FrameDescription RenderLoop::describe(const RenderView& view) const {
     FrameDescription frame = describeFrame(scene_, view);
     frame.draws = draws_;
-    if (shown_) frame.layerDraw = layers_.draw(scene_, layerMotion(view));
+    if (shown_ && !frame.illustration) samples_.describe(scene_, samplesMotion(view), frame);
     if (view.position && shown_) move(*view.position, frame.draws);
     return frame;
 }
 
-/// By how much the fraction between the key frames of what is shown in layers has grown since its moment.
-double RenderLoop::layerMotion(const RenderView& view) const {
+/// By how much the fraction between the key frames of what rays go through has grown since its moment.
+double RenderLoop::samplesMotion(const RenderView& view) const {
     const SceneMeshes& meshes = shown_->meshes;
-    if (!view.position || !meshes.layers || meshes.fractionsPerPosition.empty()) return 0;
-    const std::size_t volume = meshes.layers->volume;
+    if (!view.position || !meshes.samples || meshes.fractionsPerPosition.empty()) return 0;
+    const std::size_t volume = meshes.samples->volume;
     return motionWithin(meshes.times[volume].fraction,
                         (*view.position - shown_->request.position) * meshes.fractionsPerPosition[volume]);
 }

@@ -34,7 +34,7 @@ struct RenderView {
     /// On the timeline: meshes of another moment that have velocities are moved there, as far as they can,
     /// never across a key frame. Without it they are shown as they are.
     std::optional<double> position = {};
-    std::optional<IllustrativeStyle> illustration = {};  ///< not where the scene shows layers
+    std::optional<IllustrativeStyle> illustration = {};  ///< then no ray goes through a volume
 
     friend bool operator==(const RenderView&, const RenderView&) = default;
 };
@@ -92,7 +92,7 @@ class RenderLoop {
     bool takeMeshes(Renderer& renderer);
     void replaceMeshes(Renderer& renderer, FrameMeshes meshes);
     FrameDescription describe(const RenderView& view) const;
-    double layerMotion(const RenderView& view) const;
+    double samplesMotion(const RenderView& view) const;
     void move(double position, std::vector<SurfaceDraw>& draws) const;
 
     const Scene scene_;
@@ -102,7 +102,7 @@ class RenderLoop {
     std::optional<FrameMeshes> shown_;
     std::vector<SurfaceDraw> draws_;  ///< of surfaces, then of objects
     MeshUploads meshes_;
-    LayerUploads layers_;
+    SampleUploads samples_;
     std::exception_ptr failure_;
     std::jthread thread_;  ///< last member: it uses all the others
 };

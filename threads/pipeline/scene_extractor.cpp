@@ -44,24 +44,24 @@ bool isCutOff(const std::array<glm::dvec3, 2>& box, const std::vector<CutPlane>&
     });
 }
 
-/// The finest level that rays can take. Throws where the series cannot be shown in layers.
-int finestLayerLevel(const SeriesFile& series) {
+/// The finest level that rays can take. Throws where they cannot take the series.
+int finestSampledLevel(const SeriesFile& series) {
     const SeriesDescription& description = series.description();
     const Lattice& lattice = description.lattice;
     const glm::ivec3 cells = lattice.cells();
     if (lattice.heights) {
-        throw Error("the style \"layers\" needs even levels, but this series has heights",
+        throw Error("rays go through samples on even levels, but this series has heights",
                     series.path().string(), "import it without --height, or remove \"style\"");
     }
     if (std::min({cells.x, cells.y, cells.z}) < 1) {
-        throw Error("the style \"layers\" needs at least two samples along each axis", series.path().string(),
+        throw Error("rays need at least two samples along each axis", series.path().string(),
                     "remove \"style\"");
     }
-    const int level = LayerSamples::levelFor(lattice);
+    const int level = DenseSamples::levelFor(lattice);
     for (const FrameRecord& frame : description.frames) {
         if (static_cast<int>(frame.levels.size()) >= level) continue;
         throw Error(
-            "the series is too large to be shown in layers at full resolution, and coarser levels "
+            "the series is too large for rays through it at full resolution, and coarser levels "
             "are not stored",
             series.path().string(), "import it again without --no-levels");
     }
@@ -105,8 +105,8 @@ SceneExtractor::SceneExtractor(const Scene& scene, Options options)
         objects_.push_back(std::move(read.mesh));
         notes_.insert(notes_.end(), read.notes.begin(), read.notes.end());
     }
-    layered_ = layeredVolume(scene_);
-    if (layered_) finestInLayers_ = finestLayerLevel(*series_[*layered_].file);
+    sampled_ = sampledVolume(scene_);
+    if (sampled_) finestSampled_ = finestSampledLevel(*series_[*sampled_].file);
     using enum KeyFrameCache::Frames;
     const auto frames = scene_.quality.errorPixels ? withErrors : scene_.quality.pixels ? withLevels : plain;
     cache_ = std::make_unique<KeyFrameCache>(files(), options_.memoryBytes, frames, options_.arrived);
@@ -118,7 +118,8 @@ std::vector<PlannedWork> SceneExtractor::planAt(std::size_t volume, const TimeSa
     state.onKeyFrame = sample.fraction == 0;
     state.clippedAway = isCutOff(series_[volume].file->description().lattice.bounds(),
                                  cutPlanes(scene_, scene_.volumes[volume]));
-    state.layered = layered_ == volume;
+    state.layered = scene_.layers && sampled_ == volume;
+    state.shaded = scene_.shaded && sampled_ == volume;
     for (const Surface& surface : scene_.volumes[volume].surfaces) {
         state.surfaceOpacities.push_back(surface.shell ? 1.0f : surface.opacity);
     }
@@ -181,7 +182,7 @@ std::vector<FrameKey> SceneExtractor::framesAt(double position) const {
             return work.kind == WorkKind::extraction && work.needed;
         });
         if (surfaces) addBoth(0);
-        if (isNeeded(works.back(), WorkKind::samples)) addBoth(finestInLayers_);
+        if (isNeeded(works.back(), WorkKind::samples)) addBoth(finestSampled_);
     }
     for (std::size_t i = 0; i < colorSeries_.size(); ++i) {
         const ColorSeries& color = colorSeries_[i];
@@ -317,29 +318,29 @@ SceneMeshes SceneExtractor::extract(double position, const CameraPose& camera, g
             result.motionLimits.push_back(motionLimit(series.lattice));
         }
         addSurfaces(v, position, viewOf(scene_.volumes[v], camera, imageSize), result);
-        if (isNeeded(result.work.back(), WorkKind::samples)) addLayers(v, result);
+        if (isNeeded(result.work.back(), WorkKind::samples)) addSamples(v, result);
     }
     // What was held here may have taken the room of what is to be read.
     cache_->want(ahead);
     return result;
 }
 
-void SceneExtractor::addLayers(std::size_t volume, SceneMeshes& result) {
+void SceneExtractor::addSamples(std::size_t volume, SceneMeshes& result) {
     const TimeSample& sample = result.times[volume];
     const bool second = isNeeded(result.work[volume], WorkKind::secondKeyFrame);
-    const Moment moment = momentAt(volume, sample, true, second, finestInLayers_);
+    const Moment moment = momentAt(volume, sample, true, second, finestSampled_);
     const auto samplesOf = [&](std::size_t frame, const std::shared_ptr<const KeyFrame>& key) {
-        return layerSamples_.of({volume, frame, moment.level}, *key, options_.threads);
+        return denseSamples_.of({volume, frame, moment.level}, *key, options_.threads);
     };
-    SceneLayers layers;
-    layers.volume = volume;
-    layers.axes = sampleAxes(moment.lattice);
-    layers.first = samplesOf(sample.frameA, moment.field.a);
-    if (second) layers.second = samplesOf(sample.frameB, moment.field.b);
-    layers.fraction = sample.fraction;
-    for (const CutPlane& cut : cutPlanes(scene_, scene_.volumes[volume])) layers.planes.push_back(cut.plane);
-    result.layers = std::move(layers);
-    if (moment.level > finestInLayers_)
+    SceneSamples samples;
+    samples.volume = volume;
+    samples.axes = sampleAxes(moment.lattice);
+    samples.first = samplesOf(sample.frameA, moment.field.a);
+    if (second) samples.second = samplesOf(sample.frameB, moment.field.b);
+    samples.fraction = sample.fraction;
+    for (const CutPlane& cut : cutPlanes(scene_, scene_.volumes[volume])) samples.planes.push_back(cut.plane);
+    result.samples = std::move(samples);
+    if (moment.level > finestSampled_)
         result.substitutes[volume] = std::max(result.substitutes[volume], moment.level);
 }
 

@@ -3,7 +3,7 @@
 #include "mesh/surface_mesh.h"
 #include "pipeline/key_frame_cache.h"
 #include "pipeline/played_series.h"
-#include "pipeline/scene_layers.h"
+#include "pipeline/scene_samples.h"
 #include "plan/work_plan.h"
 #include "scene/scene.h"
 #include "surface/extract.h"
@@ -52,7 +52,7 @@ struct SceneMeshes {
     /// One a volume: the stored level that was taken in place of its key frames, or of those that colour it,
     /// because they are not there yet; 0 where all is as the scene wants it.
     std::vector<int> substitutes;
-    std::optional<SceneLayers> layers;  ///< where a volume is shown in layers that are not clipped away
+    std::optional<SceneSamples> samples;  ///< where rays go through a volume that is not clipped away
     std::vector<std::shared_ptr<const SurfaceMesh>>
         objects{};  ///< one a `Scene::meshes`; the same ones always
 
@@ -136,7 +136,7 @@ class SceneExtractor {
     std::vector<FrameKey> framesAt(double position) const;
     double keyPositionBeyond(double position, bool forwards) const;
     double shownPositionBeyond(double position, bool forwards) const;
-    void addLayers(std::size_t volume, SceneMeshes& result);
+    void addSamples(std::size_t volume, SceneMeshes& result);
     void addSurfaces(std::size_t volume, double position, View view, SceneMeshes& result);
     ExtractOptions optionsFor(const Volume& volume, const Surface& surface, const View& view) const;
     View viewOf(const Volume& volume, const CameraPose& camera, glm::ivec2 imageSize) const;
@@ -146,9 +146,9 @@ class SceneExtractor {
     std::vector<PlayedSeries> series_;
     std::vector<ColorSeries> colorSeries_;
     std::unique_ptr<KeyFrameCache> cache_;
-    std::optional<std::size_t> layered_;  ///< volume
-    int finestInLayers_ = 0;              ///< level
-    LayerSamples layerSamples_;
+    std::optional<std::size_t> sampled_;  ///< volume
+    int finestSampled_ = 0;               ///< level
+    DenseSamples denseSamples_;
     std::vector<std::shared_ptr<const SurfaceMesh>> objects_;
     std::vector<std::string> notes_;
 };

@@ -23,7 +23,7 @@ class Study {
   public:
     explicit Study(const Scene& scene) : scene_(scene), extractor_(scene, {}) {
         const SceneMeshes meshes = extractor_.extract(0, scene.camera.poseAt(0), scene.image.size);
-        uploads_.replace(meshes.layers, renderer_.volumes());
+        uploads_.replace(meshes.samples, renderer_.volumes());
         renderer_.setTiming(true);
     }
 
@@ -32,7 +32,7 @@ class Study {
         view.size = {side, side};
         FrameDescription frame = describeFrame(scene_, view);
         frame.overlays.clear();
-        frame.layerDraw = uploads_.draw(scene_, 0);
+        uploads_.describe(scene_, 0, frame);
         return frame;
     }
 
@@ -62,7 +62,7 @@ class Study {
     SceneExtractor extractor_;
     gl::HeadlessContext context_;
     Renderer renderer_{context_.context()};
-    LayerUploads uploads_;
+    SampleUploads uploads_;
 };
 
 void studyCounts(Study& study) {

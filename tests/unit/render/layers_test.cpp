@@ -43,7 +43,7 @@ class Traversal : public LayerTest {
         return comparison;
     }
 
-    VolumeSamples noise(std::uint32_t seed, std::uint32_t missingPercent = 0) const {
+    VolumeSamples noise(std::uint32_t seed, std::uint32_t missingPercent = 0) {
         std::vector<float> values = randomFloats(dims(), seed);
         removeSamples(values, missingPercent, seed + 7);
         return makeVolumeSamples(dims(), std::move(values));

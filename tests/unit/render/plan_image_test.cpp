@@ -58,7 +58,13 @@ class PlanImage : public RenderTest {
 TEST_F(PlanImage, WithoutAnyPlannedPassThePictureIsAnotherOrRefused) {
     int changed = 0;
     int refused = 0;
-    for (const FrameDescription& frame : everyFrame()) {
+    std::vector<FrameDescription> frames = everyFrame();
+    frames.push_back(frameOf(automatic, false, true, true, false));
+    frames.back().illustration.emplace();
+    frames.back().draws.back().secondary = true;
+    frames.push_back(frames.back());
+    frames.back().keepLinear = true;
+    for (const FrameDescription& frame : frames) {
         const FramePlan plan = renderer_.planOf(frame);
         const auto right = pixelsWith(frame, plan);
         for (std::size_t i = 0; i < plan.passes.size(); ++i) {
@@ -90,13 +96,20 @@ FramePlan withForced(FramePlan plan, PassKind kind) {
     return plan;
 }
 
+/// Those need what a frame without the style has not.
+bool isOfAStyle(PassKind kind) {
+    using enum PassKind;
+    return kind == layers || kind == shadedVolume || kind == firstSurface || kind == secondSurface ||
+           kind == secondaryGeometry || kind == illustration;
+}
+
 TEST_F(PlanImage, WithALeftOutPassThePictureIsTheSame) {
     int forced = 0;
     for (const FrameDescription& frame : everyFrame()) {
         const FramePlan plan = renderer_.planOf(frame);
         const auto right = pixelsWith(frame, plan);
         for (const PlannedPass& left : plan.leftOut) {
-            if (left.kind == PassKind::layers) continue;  // it needs a volume; see layers_test.cpp
+            if (isOfAStyle(left.kind)) continue;
             EXPECT_EQ(pixelsWith(frame, withForced(plan, left.kind)), right)
                 << passLabel(left) << " in " << static_cast<int>(plan.method);
             ++forced;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pipeline/key_frame_cache.h"
-#include "render/layer_draw.h"
+#include "render/frame_description.h"
 #include "render/volume_samples.h"
 #include "scene/scene.h"
 #include "volume/lattice.h"
@@ -15,9 +15,9 @@
 
 namespace isoglass {
 
-/// What the style "layers" shows at one moment: samples, not meshes.
-struct SceneLayers {
-    std::size_t volume = 0;  ///< index into `Scene::volumes`; the first of its surfaces is shown
+/// What the styles "layers" and "volume" show at one moment: samples, not meshes.
+struct SceneSamples {
+    std::size_t volume = 0;  ///< index into `Scene::volumes`
     std::shared_ptr<const VolumeSamples> first;
     std::shared_ptr<const VolumeSamples> second;  ///< null where the moment is a key frame
     double fraction = 0;                          ///< of the time between them
@@ -26,7 +26,7 @@ struct SceneLayers {
 };
 
 /// Makes dense samples of key frames, and keeps those of the last two: between key frames they stay.
-class LayerSamples {
+class DenseSamples {
   public:
     /// The finest level whose samples fit `kMostSampleBytes`.
     static int levelFor(const Lattice& lattice);
@@ -42,22 +42,24 @@ class LayerSamples {
 /// Series coordinates of all samples that rays meet: a periodic axis has its closing one, too.
 std::array<std::vector<double>, 3> sampleAxes(const Lattice& lattice);
 
-/// Index of the volume that the scene shows in layers; nothing where it shows none.
-std::optional<std::size_t> layeredVolume(const Scene& scene);
+/// Index of the volume that the scene shows in layers or as a medium; nothing where it shows none.
+std::optional<std::size_t> sampledVolume(const Scene& scene);
 
 /// The render thread's side: uploads the samples of each key frame once and releases those that are no longer
 /// shown.
-class LayerUploads {
+class SampleUploads {
   public:
     /// Takes the samples of new meshes' moment. All members: the thread of `volumes`.
-    void replace(const std::optional<SceneLayers>& layers, VolumeStore& volumes);
+    void replace(const std::optional<SceneSamples>& samples, VolumeStore& volumes);
 
-    /// How `scene` shows them, with the fraction of the time between key frames that the meshes' own grows by
-    /// `motion`; nothing where there are none.
-    std::optional<LayerDraw> draw(const Scene& scene, double motion) const;
+    /// Adds to the frame what `scene` shows of them, with the fraction of the time between key frames that
+    /// the meshes' own grows by `motion`; nothing where there are none.
+    void describe(const Scene& scene, double motion, FrameDescription& frame) const;
 
   private:
-    std::optional<SceneLayers> shown_;
+    VolumeDraw volumeDraw(const Volume& volume, double motion) const;
+
+    std::optional<SceneSamples> shown_;
     std::map<std::shared_ptr<const VolumeSamples>, VolumeId> uploaded_;
 };
 

@@ -1,0 +1,127 @@
+#include "pipeline/scene_samples.h"
+
+#include "basis/parallel.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <string>
+#include <tuple>
+
+namespace isoglass {
+
+namespace {
+
+std::shared_ptr<const VolumeSamples> denseSamples(const KeyFrame& frame, int threads) {
+    const glm::ivec3 dims = frame.cells() + 1;
+    std::vector<float> values(static_cast<std::size_t>(dims.x) * dims.y * dims.z);
+    parallelFor(static_cast<std::size_t>(dims.z), 1, threads, [&](std::size_t begin, std::size_t end) {
+        for (auto z = static_cast<int>(begin); z < static_cast<int>(end); ++z) {
+            std::size_t i = static_cast<std::size_t>(z) * dims.y * dims.x;
+            for (int y = 0; y < dims.y; ++y) {
+                // The closing sample of a periodic axis is the first one.
+                for (int x = 0; x < dims.x; ++x)
+                    values[i++] = frame.sample(glm::ivec3(x, y, z) % frame.dims());
+            }
+        }
+    });
+    return std::make_shared<const VolumeSamples>(makeVolumeSamples(dims, std::move(values)));
+}
+
+/// A hundredth of the box's diagonal, so that opacities mean much the same for volumes of any size.
+double usualUnit(const VolumeDraw& draw) {
+    glm::dvec3 low, high;
+    for (int k = 0; k < 3; ++k) {
+        const auto& axis = draw.axes[static_cast<std::size_t>(k)];
+        std::tie(low[k], high[k]) = std::minmax(axis.front(), axis.back());
+    }
+    const Bounds box = transformed(draw.worldFromSeries, {low, high});
+    return glm::distance(box.low, box.high) / 100;
+}
+
+}  // namespace
+
+int DenseSamples::levelFor(const Lattice& lattice) {
+    int level = 0;
+    for (glm::ivec3 cells = lattice.cells();; cells = (cells + 1) / 2, ++level) {
+        const glm::dvec3 dims(cells + 1);
+        if (dims.x * dims.y * dims.z * sizeof(float) <= static_cast<double>(kMostSampleBytes)) return level;
+    }
+}
+
+std::shared_ptr<const VolumeSamples> DenseSamples::of(FrameKey key, const KeyFrame& frame, int threads) {
+    for (const auto& [known, samples] : last_) {
+        if (samples && known == key) return samples;
+    }
+    auto& place = last_[next_];
+    next_ = 1 - next_;
+    place = {key, denseSamples(frame, threads)};
+    return place.second;
+}
+
+std::array<std::vector<double>, 3> sampleAxes(const Lattice& lattice) {
+    std::array<std::vector<double>, 3> axes;
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t i = 0; i <= lattice.axes[k].cells(); ++i)
+            axes[k].push_back(lattice.axes[k].coordinate(i));
+    }
+    return axes;
+}
+
+std::optional<std::size_t> sampledVolume(const Scene& scene) {
+    if (!scene.layers && !scene.shaded) return std::nullopt;
+    const std::string& name = scene.layers ? scene.layers->volume : scene.shaded->volume;
+    if (name.empty()) return 0;
+    const auto found = std::ranges::find(scene.volumes, name, &Volume::name);
+    return static_cast<std::size_t>(found - scene.volumes.begin());
+}
+
+void SampleUploads::replace(const std::optional<SceneSamples>& samples, VolumeStore& volumes) {
+    std::map<std::shared_ptr<const VolumeSamples>, VolumeId> needed;
+    if (samples) {
+        for (const auto& each : {samples->first, samples->second}) {
+            if (!each || needed.contains(each)) continue;
+            const auto known = uploaded_.find(each);
+            needed[each] = known != uploaded_.end() ? known->second : volumes.upload(*each);
+        }
+    }
+    for (const auto& [each, id] : uploaded_) {
+        if (!needed.contains(each)) volumes.release(id);
+    }
+    uploaded_ = std::move(needed);
+    shown_ = samples;
+}
+
+VolumeDraw SampleUploads::volumeDraw(const Volume& volume, double motion) const {
+    VolumeDraw draw;
+    draw.first = uploaded_.at(shown_->first);
+    draw.second = draw.first;
+    if (shown_->second) {
+        draw.second = uploaded_.at(shown_->second);
+        draw.fraction = static_cast<float>(shown_->fraction + motion);
+    }
+    draw.worldFromSeries = worldFromSeries(volume.place);
+    draw.axes = shown_->axes;
+    draw.planes = shown_->planes;
+    return draw;
+}
+
+void SampleUploads::describe(const Scene& scene, double motion, FrameDescription& frame) const {
+    if (!shown_) return;
+    const Volume& volume = scene.volumes[shown_->volume];
+    if (scene.layers) {
+        LayerDraw& draw = frame.layerDraw.emplace();
+        static_cast<VolumeDraw&>(draw) = volumeDraw(volume, motion);
+        const Surface& surface = volume.surfaces.front();
+        draw.iso = static_cast<float>(surface.iso);
+        draw.style = *scene.layers;
+        draw.color = surface.color;
+    } else {
+        ShadedDraw& draw = frame.shadedDraw.emplace();
+        static_cast<VolumeDraw&>(draw) = volumeDraw(volume, motion);
+        draw.style = *scene.shaded;
+        if (!draw.style.unit) draw.style.unit = usualUnit(draw);
+    }
+}
+
+}  // namespace isoglass
