@@ -17,7 +17,7 @@ using Pointer = json::json_pointer;
 constexpr std::size_t kMostErrors = 100;
 
 /// Harmless values of required keys, by the pointer with `*` for the place in an array.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kHarmless = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kHarmless = {{
     {"/version", "1"},
     {"/volumes", R"([{"series": "replaced.vdb", "surfaces": [{"iso": 0}]}])"},
     {"/volumes/*", R"({"series": "replaced.vdb", "surfaces": [{"iso": 0}]})"},
@@ -28,6 +28,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kHarmles
     {"/volumes/*/surfaces/*/opacity", "1"},
     {"/meshes/*", R"({"file": "replaced.ply"})"},
     {"/meshes/*/file", R"("replaced.ply")"},
+    // Without its style a volume may miss its surfaces.
+    {"/style/colors", R"([[0, "#000000"]])"},
+    {"/style/opacities", "[[0, 0]]"},
 }};
 
 bool isIndex(const std::string& token) {

@@ -74,6 +74,15 @@ TEST(SceneCheck, OneWrongValueAnywhereLeavesTheOthersFound) {
     }
 }
 
+/// The volume of a medium has no surfaces; it is not blamed for that where the medium is wrong.
+TEST(SceneCheck, AWrongStyleInventsNoOtherError) {
+    json scene = smallest();
+    scene["volumes"][0].erase("surfaces");
+    scene["style"] = {{"kind", "volume"}, {"colors", {{1, "red"}}}, {"opacities", {{2, 0.5}, {1, 0.5}}}};
+    EXPECT_EQ(places(check(scene)),
+              (List{"scene.json, /style/colors/0/1", "scene.json, /style/opacities/1/0"}));
+}
+
 TEST(SceneCheck, WhatIsNoObjectHasOneError) {
     EXPECT_EQ(places(check(json::array())), List{"scene.json"});
     EXPECT_EQ(places(checkScene("{", "", "scene.json")).size(), 1u);
