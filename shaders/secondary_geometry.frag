@@ -17,6 +17,5 @@ float attenuation() { return 1.0; }
 #endif
 
 void main() {
-    vec3 normal = direction(surface.normal);
-    secondaryShade = vec4(surfaceColor(), attenuation() * intensity(gl_FrontFacing ? normal : -normal));
+    secondaryShade = vec4(surfaceColor(), attenuation() * intensity(seenNormal()));
 }

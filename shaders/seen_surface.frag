@@ -8,7 +8,5 @@ layout(location = 0) out uvec2 seenSurface;
 // The side that is seen lies where light can fall on it, also of open surfaces.
 void main() {
     if (isPeeled()) discard;
-    vec3 normal = direction(surface.normal);
-    if (normal == vec3(0.0)) normal = direction(surface.toEye);
-    seenSurface = packedSurface(gl_FrontFacing ? normal : -normal, 1.0 / gl_FragCoord.w);
+    seenSurface = packedSurface(seenNormal(), 1.0 / gl_FragCoord.w);
 }

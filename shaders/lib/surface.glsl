@@ -12,5 +12,12 @@ vec3 direction(vec3 v) {
     return largest > 0.0 ? normalize(v / largest) : vec3(0.0);
 }
 
+// Of the side that is seen.
+vec3 seenNormal() {
+    vec3 normal = direction(surface.normal);
+    if (normal == vec3(0.0)) return direction(surface.toEye);
+    return gl_FrontFacing ? normal : -normal;
+}
+
 // Of the angle between view and normal, the same for both sides of the surface.
 float cosineOfView() { return abs(dot(direction(surface.normal), direction(surface.toEye))); }

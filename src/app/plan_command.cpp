@@ -140,6 +140,7 @@ void runPlan(const PlanCommand& command, const CommonOptions& common) {
     const Scene scene = loadScene(command.scene);
     SceneExtractor extractor(scene,
                              {.memoryBytes = common.memoryBytes, .threads = common.threads, .seenMargin = 0});
+    for (const std::string& note : extractor.notes()) printNote(note);
     const SceneMeshes meshes = extractor.extract(0, scene.camera.poseAt(0), scene.image.size);
     const Json plan = planJson(scene, meshes.work, measure(scene, meshes));
     if (command.json) {

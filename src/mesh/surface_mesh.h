@@ -8,7 +8,8 @@
 
 namespace isoglass {
 
-/// A triangle mesh of one iso-surface, as structure of arrays.
+/// A triangle mesh of one iso-surface, as structure of arrays. Those of files need not be manifolds, nor
+/// wound alike.
 ///
 /// An oriented 2-manifold by vertex index, with boundary only where the domain ends, samples are missing
 /// or a clip cuts. Winding is counter-clockwise seen from outside (where the field is beyond the

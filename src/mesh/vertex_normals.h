@@ -4,7 +4,8 @@
 
 namespace isoglass {
 
-/// Gives a mesh normals from its triangles: at each vertex the sum of the area vectors of those around it.
+/// Gives a mesh normals from its triangles: at each vertex the sum of the area vectors of those around its
+/// position, whether they share the vertex or not.
 ///
 /// Triangles whose planes differ by more than `creaseDegrees` from a corner's own do not count there; where
 /// that makes normals differ the vertex is split, behind the others, so that edges stay sharp. Values at

@@ -39,11 +39,12 @@ struct MeshFileLosses {
 /// Reads a file that `writeMesh` or another program wrote: .ply, .obj, .stl, .off (text).
 ///
 /// Polygons become fans of triangles; `losses`, where it is given, tells how many. `origin` is what the file
-/// states, else 0. `normals` are empty where the file does not have one for every vertex, and for .off, whose
-/// normals OpenMesh skips. The triangles of an .stl file share a vertex where they name the same position;
-/// those that name one position twice are refused, and counted likewise. Throws Error: file that cannot be
-/// read, is damaged, or ends early (which an .obj file does not show), unknown extension. The global locale
-/// of C++ must be the classic one, which it is unless a program sets it. Any thread; one file at a time.
+/// states, else 0. `normals` are empty where the file does not have one for every vertex, or several that
+/// differ, and for .off, whose normals OpenMesh skips. The triangles of an .stl file share a vertex where
+/// they name the same position; those that name one position twice are refused, and counted likewise. Throws
+/// Error: file that cannot be read, is damaged, or ends early (which an .obj file does not show), unknown
+/// extension. The global locale of C++ must be the classic one, which it is unless a program sets it. Any
+/// thread; one file at a time.
 SurfaceMesh readMesh(const std::filesystem::path& file, MeshFileLosses* losses = nullptr);
 
 }  // namespace isoglass

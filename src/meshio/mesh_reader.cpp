@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cstdint>
 #include <cstring>
+#include <exception>
 #include <fstream>
 #include <locale>
 #include <optional>
@@ -121,7 +122,8 @@ void parse(std::istream& stream, MeshFormat format, bool lengthIsDeclared, OpenM
         const OpenMeshSession session;
         if (lengthIsDeclared) stream.exceptions(std::ios::failbit | std::ios::badbit);
         accepted = OpenMesh::IO::IOManager().read(stream, extensionOf(format), importer, features);
-    } catch (const std::ios::failure&) {
+    } catch (const std::exception&) {
+        // Of the stream, or of memory for as much as a damaged file says.
         throw Error("the mesh is damaged or ends early", file.string());
     }
     if (!accepted) throw Error("the mesh is damaged or not of its format", file.string());

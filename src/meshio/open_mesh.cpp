@@ -105,7 +105,10 @@ void SurfaceMeshImporter::set_normal(OpenMesh::VertexHandle vertex, const OpenMe
         mesh_.normals.resize(mesh_.positions.size());
         hasNormal_.resize(mesh_.positions.size());
     }
-    mesh_.normals.at(indexOf(vertex)) = fromOpenMesh(normal);
+    glm::vec3& known = mesh_.normals.at(indexOf(vertex));
+    const glm::vec3 given = fromOpenMesh(normal);
+    if (hasNormal_[indexOf(vertex)] && known != given) normalsContradict_ = true;
+    known = given;
     hasNormal_[indexOf(vertex)] = true;
 }
 
@@ -116,7 +119,7 @@ void SurfaceMeshImporter::set_normal(OpenMesh::VertexHandle vertex, const OpenMe
 void SurfaceMeshImporter::dropPartialNormals() {
     const bool complete =
         hasNormal_.size() == mesh_.positions.size() && std::ranges::all_of(hasNormal_, std::identity());
-    if (!complete) mesh_.normals.clear();
+    if (!complete || normalsContradict_) mesh_.normals.clear();
 }
 
 }  // namespace isoglass

@@ -76,7 +76,8 @@ class SurfaceMeshImporter final : public OpenMesh::IO::ImporterT<OpenMeshKernel>
     std::size_t polygons() const { return polygons_; }
     /// Faces that name a vertex which is not there, or fewer than three.
     std::size_t brokenFaces() const { return brokenFaces_; }
-    /// Drops the normals unless every vertex was given one.
+    /// Drops the normals unless every vertex was given one, and no vertex several that differ: .obj has one
+    /// for each corner of a face.
     void dropPartialNormals();
 
   private:
@@ -86,6 +87,7 @@ class SurfaceMeshImporter final : public OpenMesh::IO::ImporterT<OpenMeshKernel>
     std::size_t polygons_ = 0;
     std::size_t brokenFaces_ = 0;
     std::vector<bool> hasNormal_;
+    bool normalsContradict_ = false;
 };
 
 }  // namespace isoglass

@@ -210,8 +210,8 @@ void DrawRecorder::uploadIllustration(glm::dvec2 shiftPixels) {
         .light =
             glm::vec4(glm::normalize(light.x * axes.right + light.y * axes.up - light.z * axes.forward), 0),
         .paper = {style.paper * frame_.backgroundOpacity, frame_.backgroundOpacity},
-        .front = {style.front, 1},
-        .back = {style.back, 1},
+        .frontColor = {style.front, 1},
+        .backColor = {style.back, 1},
         .hatchRow = glm::dvec2(std::cos(angle), std::sin(angle)) / double(style.hatchSize),
         .shiftPixels = shiftPixels,
         .hatchCross = style.hatchCross,

@@ -61,8 +61,8 @@ class Renderer {
     /// where A is 1 on opaque surfaces and the background's opacity beside them; 255 over an opaque
     /// background. Light that a method adds beyond alpha is clamped.
     Image readSrgb();
-    /// Depth of what is opaque, in samples (twice the image's size along each axis where `samples` is a
-    /// multiple of 4); of the last of the pictures that were averaged.
+    /// Depth of what is opaque, but for illustrations, in samples (twice the image's size along each axis
+    /// where `samples` is a multiple of 4); of the last of the pictures that were averaged.
     DepthImage readDepth();
     /// What a pass of the last frame left in a target, in samples: for tests and studies. Four floats, or two
     /// integers.

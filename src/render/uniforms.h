@@ -93,8 +93,8 @@ struct IllustrationUniforms {
 
     glm::vec4 light;
     glm::vec4 paper;
-    glm::vec4 front;
-    glm::vec4 back;
+    glm::vec4 frontColor;
+    glm::vec4 backColor;
     glm::vec2 hatchRow;
     glm::vec2 shiftPixels;
     float hatchCross;

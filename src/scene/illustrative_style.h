@@ -16,13 +16,14 @@ struct IllustrativeStyle {
     /// paper compares differences of the depth buffer, whose meaning depends on the near plane: see
     /// depthThresholdFromPaper.
     float depthThreshold = 5;
-    /// The sum of the cosines between a pixel's normal and its four neighbours' below which it is one (5), 0
+    /// The sum of the cosines between a pixel's normal and its four neighbours' below which it is one (5), -4
     /// to 4.
     float normalThreshold = 3.98f;
     float hatchAngle = 20;  ///< of the strokes against the rows of the picture, degrees (7)
     float hatchSize = 4;    ///< from stroke to stroke, pixels (7)
-    float hatchCross =
-        0.9f;  ///< where less light than this falls, only parallel strokes are left (8), 0 to 1
+    /// Where more light than this falls, strokes of one direction are left (8, 9), 0 to 1. The paper's text
+    /// says the opposite, its equations this.
+    float hatchCross = 0.9f;
     /// Towards the light, in view coordinates: x to the right, y upwards, z towards the eye; any length but 0
     /// (1, 6).
     glm::vec3 light{-0.3f, 0.35f, 0.9f};

@@ -275,7 +275,7 @@ void readQuality(const JsonNode& node, Scene& scene) {
 void refuseUnavailable(const JsonNode& root) {
     for (const Word key : {Word("terrain"), Word("ocean"), Word("sky")}) {
         if (const auto node = root.find(key)) {
-            node->failUnavailable(inQuotes(key), "remove it: volumes are what a scene can show");
+            node->failUnavailable(inQuotes(key), "remove it: volumes and meshes are what a scene can show");
         }
     }
 }

@@ -102,7 +102,7 @@ IllustrativeStyle readIllustrative(const JsonNode& node) {
     };
     read("alpha", style.alpha, {.low = 0, .high = 1});
     style.beta = std::min(style.beta, style.alpha);
-    read("beta", style.beta, {.low = 0, .high = style.alpha});
+    read("beta", style.beta, {.low = 0, .high = shortestDouble(style.alpha)});
     read("depth_threshold", style.depthThreshold, {.low = 0, .high = 1e6, .openLow = true});
     read("normal_threshold", style.normalThreshold, {.low = -4, .high = 4});
     read("hatch_angle", style.hatchAngle, {.low = -360, .high = 360});

@@ -122,12 +122,12 @@ LegendBar barOf(const FieldColor& color) {
     return {color.map, color.low, color.high};
 }
 
-/// Every different bar once.
-std::vector<LegendBar> legendBars(const Scene& scene) {
+/// Every different bar once. Illustrations have the colours of secondary geometry alone.
+std::vector<LegendBar> legendBars(const Scene& scene, bool illustration) {
     std::vector<LegendBar> bars;
     for (const Volume& volume : scene.volumes) {
         for (const Surface& surface : volume.surfaces) {
-            if (!surface.fieldColor) continue;
+            if (!surface.fieldColor || (illustration && !surface.secondary)) continue;
             const LegendBar bar = barOf(*surface.fieldColor);
             if (std::ranges::find(bars, bar) == bars.end()) bars.push_back(bar);
         }
@@ -195,7 +195,10 @@ FrameDescription describeFrame(const Scene& scene, const RenderView& view) {
     frame.samples = scene.image.samples;
     frame.wireframe = view.wireframe;
     frame.keepLinear = false;
-    if (scene.image.legend) frame.overlays = makeLegend(legendBars(scene), view.size, scene.image.background);
+    if (scene.image.legend) {
+        const LinearColor paper = view.illustration ? view.illustration->paper : scene.image.background;
+        frame.overlays = makeLegend(legendBars(scene, view.illustration.has_value()), view.size, paper);
+    }
     return frame;
 }
 

@@ -222,6 +222,8 @@ std::vector<FrameKey> SceneExtractor::framesAhead(double position, Course course
         }
     };
     add(position);
+    // Steps go to the next key frame, displayed or not.
+    add(keyPositionBeyond(position, course.forwards));
     const double end = course.forwards ? 1 : 0;
     double at = position;
     bool looped = !course.loops;

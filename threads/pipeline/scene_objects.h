@@ -13,7 +13,8 @@ namespace isoglass {
 
 /// A mesh of the scene's files.
 struct ObjectMesh {
-    std::shared_ptr<const SurfaceMesh> mesh;  ///< with normals: of its triangles where the file has none
+    std::shared_ptr<const SurfaceMesh>
+        mesh;                        ///< with normals, made from its triangles where the file lacks them
     std::vector<std::string> notes;  ///< what of the file could not be taken as it is, a sentence each
 };
 
@@ -24,7 +25,7 @@ ObjectMesh readObject(const MeshObject& object);
 class MeshUploads {
   public:
     /// Uploads those that are new, then releases those that are no longer there. The ids, in the same order.
-    /// What was there stays drawable until then; Errors leave it so.
+    /// What was there stays drawable until then; where an upload throws, all is as it was.
     std::vector<MeshId> replace(const std::vector<std::shared_ptr<const SurfaceMesh>>& meshes,
                                 MeshStore& store);
 

@@ -4,6 +4,8 @@
 #include "scene/color.h"
 #include "scene/scene_file.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,7 +17,7 @@ namespace {
 
 using Style = IllustrativeStyle;
 
-/// A number that grows and shrinks by equal steps, within what a scene file may hold.
+/// A number that grows and shrinks by equal steps between two limits.
 struct NumberParameter {
     std::string_view name;
     float& (*value)(Style&);
@@ -51,9 +53,15 @@ constexpr std::array<std::string_view, 9> kPalette{"#000000", "#404040", "#a0a0a
 /// A light without a direction is none: it then stays as it was.
 void change(const NumberParameter& parameter, int steps, Style& style) {
     Style changed = style;
+    // Only the direction of the light counts.
+    const glm::vec3 light = glm::abs(style.light);
+    changed.light /= std::max({light.x, light.y, light.z, 1.0f});
     float& value = parameter.value(changed);
     const float places = std::round(value / parameter.step) + static_cast<float>(steps);
-    value = std::clamp(places * parameter.step, parameter.low, parameter.high);
+    const float wanted = std::clamp(places * parameter.step, parameter.low, parameter.high);
+    // A value beyond the limits is not pulled back against the key.
+    if ((wanted - value) * static_cast<float>(steps) <= 0) return;
+    value = wanted;
     if (changed.light == glm::vec3(0)) return;
     changed.beta = std::min(changed.beta, changed.alpha);
     style = changed;

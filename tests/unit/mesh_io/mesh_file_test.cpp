@@ -205,6 +205,16 @@ TEST(MeshFileReader, SplitAndRefusedFacesAreCounted) {
     }
 }
 
+/// As modellers write a box: a vertex has the normals of three faces, of which none is its own.
+TEST(MeshFileReader, NormalsOfCornersThatDifferAreLeftOut) {
+    const ScratchFolder folder;
+    const std::string corner = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 -1\nvn 0 -1 0\nvn -1 0 0\n";
+    std::ofstream(folder / "sharp.obj") << corner << "f 1//1 3//1 2//1\nf 1//2 2//2 4//2\nf 1//3 4//3 3//3\n";
+    EXPECT_TRUE(readMesh(folder / "sharp.obj").normals.empty());
+    std::ofstream(folder / "smooth.obj") << corner << "f 1//1 3//1 2//1\nf 1//1 2//1 4//1\n";
+    EXPECT_EQ(readMesh(folder / "smooth.obj").normals.size(), 4u);
+}
+
 TEST(MeshFileReader, FacesWithoutVerticesAreRefused) {
     const ScratchFolder folder;
     std::ofstream(folder / "bad.off") << "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 7\n";

@@ -40,6 +40,21 @@ TEST(VertexNormals, SmoothSurfacesAreNotSplit) {
         EXPECT_GT(glm::dot(mesh.normals[i], glm::normalize(right[i])), std::cos(M_PI / 32)) << i;
 }
 
+/// The same surface, each triangle with vertices of its own.
+TEST(VertexNormals, VerticesNeedNotBeShared) {
+    SurfaceMesh shared = makeTorus(32, 16), soup;
+    for (const std::uint32_t vertex : shared.triangles) {
+        soup.triangles.push_back(static_cast<std::uint32_t>(soup.positions.size()));
+        soup.positions.push_back(shared.positions[vertex]);
+    }
+    addNormals(shared);
+    addNormals(soup);
+    ASSERT_EQ(soup.vertexCount(), soup.triangles.size());
+    for (std::size_t i = 0; i < soup.triangles.size(); ++i)
+        EXPECT_LT(glm::distance(soup.normals[soup.triangles[i]], shared.normals[shared.triangles[i]]), 1e-6f)
+            << i;
+}
+
 TEST(VertexNormals, AnAngleDecidesWhatIsSharp) {
     SurfaceMesh mesh = makeCube();
     addNormals(mesh, 91);

@@ -140,17 +140,18 @@ TEST_F(Drawing, ASlopeIsALineFromTheThresholdOn) {
     EXPECT_TRUE(isLine(2.01));
 }
 
-/// The integral of (9) over a period: of light I the share 1 - I is black, where s runs to c and beyond.
+/// The integral of (9) over a period: of light I up to c the share 1 - I is black (c - I of strokes along s,
+/// 1 - c of those across), above c, as long as (I - c) / (1 - c) < c, the share 1 - c.
 TEST_F(Drawing, HatchingIsAsDarkAsTheLightIsWeak) {
     frame_.camera.size = {400, 400};
     style().hatchSize = 8;
     add(quad(0, 5));
-    for (const double light : {0.2, 0.5, 0.8}) {
+    for (const auto& [light, share] : {std::pair(0.2, 0.8), {0.5, 0.5}, {0.8, 0.2}, {0.95, 0.1}}) {
         style().light = glm::vec3(std::sqrt(1 - light * light), 0, light);
         const double black = count(renderLinear(frame_), kFront) / 160000.0;
-        // Pixels at the rim of a stroke go either way: rounding them shifts a stroke by half a pixel at most,
-        // of 8, and the strokes' phases are spread evenly by the turn of 20 degrees.
-        EXPECT_NEAR(black, 1 - light, 0.02) << light;
+        // Four rims of strokes cross a period of 8 by 8, so half of all pixels have one in them. If those
+        // fell at random, their share would be off by 0.001 (one standard deviation).
+        EXPECT_NEAR(black, share, 0.005) << light;
     }
 }
 
@@ -233,7 +234,8 @@ TEST_F(Drawing, IsSteadyInMotion) {
     };
     const int coarse = changes(64), fine = changes(128);
     EXPECT_GT(coarse, 500);
-    EXPECT_LT(fine, 1.2 * coarse);
+    // 1 without flicker, 2 with nothing but flicker.
+    EXPECT_LT(fine, 1.25 * coarse);
 }
 
 /// Only the part of the picture with surfaces is worked on: two small ones at the ends of the picture look
@@ -261,7 +263,40 @@ TEST_F(Drawing, WhatIsAroundTheSurfacesIsPaper) {
         lines += both.pixels[i] != kPaper;
     }
     EXPECT_GT(lines, 100);
-    EXPECT_NE(behindTheEye.pixels, both.pixels);
+    // The wall reaches behind the eye: it is drawn where it is, beyond the boxes of the spheres.
+    int wall = 0;
+    for (std::size_t i = 0; i < both.pixels.size(); ++i)
+        wall += both.pixels[i] == kPaper && behindTheEye.pixels[i] != kPaper;
+    EXPECT_GT(wall, 100);
+}
+
+/// Moved far out of its box, and with samples beside the pixels' middles: as the same mesh in its place, and
+/// as with specks at the corners of the picture, which make all of it worked on.
+TEST_F(Drawing, MovedSurfacesAreWorkedOnWhereTheyAre) {
+    SurfaceMesh moving = sphere({-0.8f, -0.5f, 0}, 0.25f, 12), moved = sphere({0.8f, 0.5f, 0}, 0.25f, 12);
+    moving.velocities.assign(moving.vertexCount(), {3.2f, 2, 0});
+    for (const int samples : {1, 3, 4}) {
+        frame_.samples = samples;
+        frame_.draws.clear();
+        add(moved);
+        const LinearImage right = renderLinear(frame_);
+        frame_.draws.clear();
+        add(moving, {.boundsSeries = Bounds{{-2, -2, -1}, {2, 2, 1}}, .motion = 0.5f, .motionLimit = 4});
+        const LinearImage found = renderLinear(frame_);
+        // Sums of other numbers: a sample at a rim may fall to the other side.
+        int others = 0;
+        for (std::size_t i = 0; i < right.pixels.size(); ++i) others += found.pixels[i] != right.pixels[i];
+        EXPECT_LE(others, 8) << samples;
+        EXPECT_GT(std::ranges::count_if(found.pixels, [](const glm::vec3& p) { return p != kPaper; }), 60);
+        for (const double x : {-1.6, 1.6}) {
+            for (const double y : {-1.3, 1.3})
+                add(quad(0, 1e-4f), {.worldFromSeries = glm::translate(glm::dmat4(1), {x, y, 0})});
+        }
+        const LinearImage whole = renderLinear(frame_);
+        for (int row = 4; row < 44; ++row) {
+            for (int x = 4; x < 56; ++x) EXPECT_EQ(whole.at(x, row), found.at(x, row)) << x << ", " << row;
+        }
+    }
 }
 
 TEST_F(Drawing, LayersAreRefused) {

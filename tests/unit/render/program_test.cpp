@@ -121,6 +121,19 @@ TEST_F(ProgramTest, UniformLayoutsAreThoseOfTheMirrors) {
     expectOffset(resolve, "exposure", offsetof(FrameUniforms, exposure));
     expectOffset(resolve, "background", offsetof(FrameUniforms, background));
     expectOffset(resolve, "layerLimit", offsetof(FrameUniforms, layerLimit));
+    const gl::Program drawing("full_screen.vert", "illustration.frag", {"SUPERSAMPLE 1", "SURFACES"});
+    expectBlock(drawing, "Illustration", IllustrationUniforms::kBinding, sizeof(IllustrationUniforms));
+    expectOffset(drawing, "frontColor", offsetof(IllustrationUniforms, frontColor));
+    expectOffset(drawing, "hatchRow", offsetof(IllustrationUniforms, hatchRow));
+    expectOffset(drawing, "shiftPixels", offsetof(IllustrationUniforms, shiftPixels));
+    expectOffset(drawing, "normalThreshold", offsetof(IllustrationUniforms, normalThreshold));
+    expectOffset(drawing, "depthThreshold", offsetof(IllustrationUniforms, depthThreshold));
+    const gl::Program medium("full_screen.vert", "volume.frag");
+    expectBlock(medium, "Volume", VolumeUniforms::kBinding, sizeof(VolumeUniforms));
+    expectOffset(medium, "planes", offsetof(VolumeUniforms, planes));
+    expectOffset(medium, "stepCells", offsetof(VolumeUniforms, stepCells));
+    expectOffset(medium, "transferLow", offsetof(VolumeUniforms, transferLow));
+    expectOffset(medium, "litByGradient", offsetof(VolumeUniforms, litByGradient));
     const gl::Program present("full_screen.vert", "present.frag");
     expectOffset(present, "accumulationShare", offsetof(FrameUniforms, accumulationShare));
 }

@@ -95,6 +95,34 @@ TEST(StyleControls, ALightAlwaysHasADirection) {
     EXPECT_EQ(controls.shown()->light, glm::vec3(0, 0, 0.1f));
 }
 
+TEST(StyleControls, AKeyNeverGoesTheOtherWay) {
+    Scene scene = illustrative();
+    scene.illustrative->light = {10, 20, 30};
+    scene.illustrative->depthThreshold = 0.2f;
+    StyleControls controls(scene);
+    typeAll(controls, U"nnn-");
+    EXPECT_EQ(controls.shown()->depthThreshold, 0.2f);
+    typeAll(controls, U"nnnnn+");
+    ASSERT_EQ(controls.notice().substr(0, 7), "light x");
+    const glm::vec3 light = controls.shown()->light;
+    EXPECT_GT(light.x / light.z, 10.0f / 30);
+    EXPECT_FLOAT_EQ(light.y / light.z, 20.0f / 30);
+}
+
+/// Whatever beta is, it can be read again.
+TEST(StyleControls, EveryBetaUpToAlphaIsThatOfASceneFile) {
+    for (int steps = 0; steps <= 20; ++steps) {
+        StyleControls controls(illustrative());
+        controls.type(U'n');
+        for (int i = 0; i < steps; ++i) controls.type(U'-');
+        controls.type(U'n');
+        for (int i = 0; i < 20; ++i) controls.type(U'+');
+        const Scene scene = parseScene(
+            R"({"version": 1, "meshes": [{"file": "a.ply"}], )" + controls.sceneText() + "}", "", "scene.json");
+        EXPECT_EQ(scene.illustrative, controls.shown());
+    }
+}
+
 /// What `p` prints can be put into a scene file.
 TEST(StyleControls, TextIsThatOfASceneFile) {
     StyleControls controls(illustrative());
