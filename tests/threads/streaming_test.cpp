@@ -247,6 +247,7 @@ TEST_F(StreamingTest, WhereLevelsDoNotFitBesideTheKeyFramesThoseAreWaitedFor) {
 TEST_F(StreamingTest, KeyFrameThatFailedOnceIsReadAheadAgain) {
     makeSeries(8);
     disk_->breakDown();
+    disk_->close();  // so that reading fails after the level was taken, not before
     std::size_t most = 0;
     for (const FrameRecord& frame : disk_->file().description().frames)
         most = std::max<std::size_t>(most, 2 * (frame.bytes + frame.levels[0].bytes));
@@ -254,6 +255,7 @@ TEST_F(StreamingTest, KeyFrameThatFailedOnceIsReadAheadAgain) {
     tight.memoryBytes = most;
     start(tight);
     extract(3.0 / 7);
+    disk_->open();
     ASSERT_TRUE(eventually([&] { return cache().arrivals() >= 1; }));
     EXPECT_THROW(extract(3.0 / 7), Error);
     EXPECT_EQ(cache().expectedSeconds({0, 3}), 0);
