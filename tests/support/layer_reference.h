@@ -26,6 +26,26 @@ struct LayerHits {
     double closestAtBorder = std::numeric_limits<double>::infinity();
 };
 
+/// Of the samples around a place, in double precision; corners with less weight than `least` are not looked
+/// at.
+inline double trilinear(const VolumeSamples& volume, const glm::dvec3& index, double least = -1) {
+    const glm::ivec3 low = glm::clamp(glm::ivec3(index), glm::ivec3(0), volume.dims - 2);
+    const glm::dvec3 part = index - glm::dvec3(low);
+    double sum = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::ivec3 at = low + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
+        double weight = 1;
+        for (int k = 0; k < 3; ++k) weight *= corner >> k & 1 ? part[k] : 1 - part[k];
+        if (weight < least) continue;
+        sum +=
+            weight *
+            static_cast<double>(
+                volume
+                    .values[(static_cast<std::size_t>(at.z) * volume.dims.y + at.y) * volume.dims.x + at.x]);
+    }
+    return sum;
+}
+
 class LayerReference {
   public:
     /// Even axes; the volumes must outlive it.
@@ -105,23 +125,6 @@ class LayerReference {
 
     glm::dvec3 clamped(const glm::dvec3& index) const {
         return glm::clamp(index, glm::dvec3(0), glm::dvec3(first_.dims - 1));
-    }
-
-    static double trilinear(const VolumeSamples& volume, const glm::dvec3& index, double least = -1) {
-        const glm::ivec3 low = glm::clamp(glm::ivec3(index), glm::ivec3(0), volume.dims - 2);
-        const glm::dvec3 part = index - glm::dvec3(low);
-        double sum = 0;
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::ivec3 at = low + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
-            double weight = 1;
-            for (int k = 0; k < 3; ++k) weight *= corner >> k & 1 ? part[k] : 1 - part[k];
-            if (weight < least) continue;
-            sum += weight *
-                   static_cast<double>(
-                       volume.values[(static_cast<std::size_t>(at.z) * volume.dims.y + at.y) * volume.dims.x +
-                                     at.x]);
-        }
-        return sum;
     }
 
     /// Between a place with a value and one without, both on the ray.

@@ -5,6 +5,7 @@
 //     layer_study SCENE.json
 #include "base/error.h"
 #include "gl/headless_context.h"
+#include "pass_time.h"
 #include "pipeline/render_loop.h"
 #include "scene/scene_file.h"
 
@@ -37,16 +38,7 @@ class Study {
     }
 
     double milliseconds(const FrameDescription& frame) {
-        renderer_.render(frame);
-        std::vector<double> times;
-        for (int run = 0; run < kRuns; ++run) {
-            renderer_.render(frame);
-            for (const PassTiming& timing : renderer_.timings()) {
-                if (timing.label == passName(PassKind::layers)) times.push_back(timing.milliseconds);
-            }
-        }
-        std::ranges::nth_element(times, times.begin() + kRuns / 2);
-        return times[kRuns / 2];
+        return passMilliseconds(renderer_, frame, PassKind::layers, kRuns);
     }
 
     LinearImage measure(FrameDescription frame) {

@@ -5,6 +5,7 @@
 //     volume_study SCENE.json
 #include "base/error.h"
 #include "gl/headless_context.h"
+#include "pass_time.h"
 #include "pipeline/render_loop.h"
 #include "scene/scene_file.h"
 
@@ -39,16 +40,7 @@ class Study {
     }
 
     double milliseconds(const FrameDescription& frame) {
-        std::vector<double> times;
-        for (int run = 0; run <= kRuns; ++run) {
-            renderer_.render(frame);
-            for (const PassTiming& timing : renderer_.timings()) {
-                if (run > 0 && timing.label == passName(PassKind::shadedVolume))
-                    times.push_back(timing.milliseconds);
-            }
-        }
-        std::ranges::nth_element(times, times.begin() + kRuns / 2);
-        return times[kRuns / 2];
+        return passMilliseconds(renderer_, frame, PassKind::shadedVolume, kRuns);
     }
 
     LinearImage picture(FrameDescription frame) {

@@ -283,10 +283,11 @@ TEST_F(Drawing, MovedSurfacesAreWorkedOnWhereTheyAre) {
         frame_.draws.clear();
         add(moving, {.boundsSeries = Bounds{{-2, -2, -1}, {2, 2, 1}}, .motion = 0.5f, .motionLimit = 4});
         const LinearImage found = renderLinear(frame_);
-        // Sums of other numbers: a sample at a rim may fall to the other side.
+        // Sums of other numbers, off by 2^-23: that moves a rim or a stroke by 10^-5 pixels, and hardly a
+        // pixel with it.
         int others = 0;
         for (std::size_t i = 0; i < right.pixels.size(); ++i) others += found.pixels[i] != right.pixels[i];
-        EXPECT_LE(others, 8) << samples;
+        EXPECT_LE(others, 1) << samples;
         EXPECT_GT(std::ranges::count_if(found.pixels, [](const glm::vec3& p) { return p != kPaper; }), 60);
         for (const double x : {-1.6, 1.6}) {
             for (const double y : {-1.3, 1.3})

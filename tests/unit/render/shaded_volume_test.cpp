@@ -64,20 +64,6 @@ class ShadedVolume : public VolumeTest {
         return a + static_cast<double>(volume().fraction) * (trilinear(second_, index) - a);
     }
 
-    static double trilinear(const VolumeSamples& samples, const glm::dvec3& index) {
-        const glm::ivec3 low = glm::clamp(glm::ivec3(index), glm::ivec3(0), samples.dims - 2);
-        const glm::dvec3 part = index - glm::dvec3(low);
-        double sum = 0;
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::ivec3 at = low + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
-            double weight = 1;
-            for (int k = 0; k < 3; ++k) weight *= corner >> k & 1 ? part[k] : 1 - part[k];
-            const auto i = (static_cast<std::size_t>(at.z) * samples.dims.y + at.y) * samples.dims.x + at.x;
-            sum += weight * static_cast<double>(samples.values[i]);
-        }
-        return sum;
-    }
-
     Ray rayOf(int x, int y) const { return pixelRay(frame_.camera, x + 0.5, y + 0.5); }
 
     /// Largest difference from `right` over all pixels.
@@ -95,6 +81,9 @@ class ShadedVolume : public VolumeTest {
 /// Light ends where less than 1/1024 comes through; ways in the box are sums of up to 256 numbers of single
 /// precision.
 constexpr double kEarly = 1.0 / 1024, kRounding = 256 * 0x1p-23;
+/// Seen from 1000 away, places are off by a few times 1000 * 2^-24, which changes light by up to 1.4 times
+/// that.
+constexpr double kFarAway = 8 * 1000 * 0x1p-24;
 
 TEST_F(ShadedVolume, AnEvenMediumFollowsTheLawOfBeerAndLambert) {
     setLattice({9, 17, 33});
@@ -109,8 +98,8 @@ TEST_F(ShadedVolume, AnEvenMediumFollowsTheLawOfBeerAndLambert) {
     }
 }
 
-/// Opacity along the ray is 1 - exp(-x): the optical depth is the integral of a linear function, of which
-/// midpoints make no error, so what is left falls with the square of the step; colours differ along the way.
+/// Colours are linear along the ray, and taken at the middles of steps: what that lacks of the integral falls
+/// with the square of the step, by 4 for each halving (3.5 leaves room for the next power).
 TEST_F(ShadedVolume, ConvergesWithTheSquareOfTheStep) {
     setLattice({33, 33, 33});
     frame_.camera = {.eye = {9, 0.1, 0.2}, .fovDegrees = 8, .size = {12, 12}};
@@ -130,7 +119,6 @@ TEST_F(ShadedVolume, ConvergesWithTheSquareOfTheStep) {
     const double eight = off(8), four = off(4), two = off(2);
     EXPECT_GT(eight / four, 3.5);
     EXPECT_GT(four / two, 3.5);
-    EXPECT_LT(two, 1e-3);
 }
 
 TEST_F(ShadedVolume, FollowsAMarchOnTheCpu) {
@@ -152,8 +140,8 @@ TEST_F(ShadedVolume, MissingSamplesAreEmpty) {
     frame_.camera = {.eye = {0.01, 0.02, 9}, .up = {0, 1, 0}, .fovDegrees = 4, .size = {8, 8}};
     upload(sampled([](const glm::dvec3& p) { return std::abs(p.z) < 0.5 ? double{kNan} : 1; }));
     style().step = 0.125;
-    // Cells that touch a missing sample are empty, too: 1/8 on either side of the gap, whose samples lie at
-    // most at 3/8, is between 1/2 and the last one. A step of 1/64 begins or ends across each border.
+    // Samples lie 1/8 apart, those at -1/2 and 1/2 are there: beyond them the way is 1/2 on either side.
+    // Where values begin and end a step of 1/64 counts whole or not at all.
     const double way = 2 * 0.5;
     const double error = largestError([&](const Ray&) { return behind(std::log(2) * way / 0.5); });
     EXPECT_LT(error, 2 * (1.0 / 64) * std::log(2) / 0.5 + kEarly);
@@ -196,12 +184,12 @@ TEST_F(ShadedVolume, LightFallsAlongTheGradient) {
     style().lit = true;
     frame_.lighting = {.ambient = 0.25f, .diffuse = 0.5f, .specular = 0, .shininess = 1};
     frame_.camera = {.eye = {1e3, 0, 0}, .fovDegrees = 0.01, .size = {4, 4}};
-    for (const glm::vec3& pixel : renderLinear(frame_).pixels) EXPECT_NEAR(pixel.x, 0.75, 1e-3);
+    for (const glm::vec3& pixel : renderLinear(frame_).pixels) EXPECT_NEAR(pixel.x, 0.75, kEarly + kFarAway);
     frame_.camera = {.eye = {0, 1e3, 0}, .fovDegrees = 0.01, .size = {4, 4}};
-    for (const glm::vec3& pixel : renderLinear(frame_).pixels) EXPECT_NEAR(pixel.x, 0.25, 1e-3);
+    for (const glm::vec3& pixel : renderLinear(frame_).pixels) EXPECT_NEAR(pixel.x, 0.25, kEarly + kFarAway);
     // Everywhere the same: nothing to turn away from the light.
     upload(sampled([](const glm::dvec3&) { return 1; }));
-    for (const glm::vec3& pixel : renderLinear(frame_).pixels) EXPECT_NEAR(pixel.x, 0.75, 1e-3);
+    for (const glm::vec3& pixel : renderLinear(frame_).pixels) EXPECT_NEAR(pixel.x, 0.75, kEarly + kFarAway);
 }
 
 TEST_F(ShadedVolume, OpaqueSurfacesEndTheWayThroughIt) {
@@ -214,7 +202,7 @@ TEST_F(ShadedVolume, OpaqueSurfacesEndTheWayThroughIt) {
     const double through = std::pow(0.5, 0.75 / 0.5);
     const glm::dvec3 right = glm::mix(glm::dvec3(kColor), glm::dvec3(quadColor), through);
     for (const glm::vec3& pixel : renderLinear(frame_).pixels)
-        EXPECT_LE(largestDifference(pixel, right), 1e-3);
+        EXPECT_LE(largestDifference(pixel, right), kFarAway);
     EXPECT_TRUE(renderer_.plan().runs(PassKind::shadedVolume));
 }
 
@@ -225,7 +213,7 @@ TEST_F(ShadedVolume, PlanesCutIt) {
     upload(sampled([](const glm::dvec3&) { return 1; }));
     volume().planes = {{0, 0, 1, 0.5}, {0, 0, -1, 0.25}};
     for (const glm::vec3& pixel : renderLinear(frame_).pixels)
-        EXPECT_LE(largestDifference(pixel, behind(std::log(2) * 0.75 / 0.5)), 1e-3);
+        EXPECT_LE(largestDifference(pixel, behind(std::log(2) * 0.75 / 0.5)), kFarAway);
     volume().planes.assign(kMostVolumePlanes + 1, {1, 0, 0, 1});
     EXPECT_THROW(renderer_.render(frame_), Error);
 }
