@@ -1,18 +1,33 @@
 #include "scene/clip_json.h"
 
+#include "scene/placement_json.h"
+
 #include <glm/geometric.hpp>
 
+#include <array>
 #include <cmath>
+#include <string>
 
 namespace isoglass {
 
 namespace {
 
-ClipPlane readPlane(const JsonNode& node) {
-    node.object();
-    for (const char* key : {"mesh", "keep", "method"}) {
-        if (const auto found = node.find(key)) found->failUnavailable("clipping by a mesh", "use a plane");
+using Word = std::string_view;
+
+/// In the orders of SolidShape and Keep.
+constexpr std::array kShapes{Word("box"), Word("sphere"), Word("cylinder")};
+constexpr std::array kKeeps{Word("inside"), Word("outside")};
+
+template <std::size_t n>
+void refuse(const JsonNode& node, const std::array<Word, n>& keys, const char* what) {
+    for (const Word key : keys) {
+        if (const auto found = node.find(key))
+            found->fail("\"" + std::string(key) + "\" does not belong to " + what, "remove it");
     }
+}
+
+ClipPlane readPlane(const JsonNode& node) {
+    refuse(node, std::array{Word("keep"), Word("place")}, "a plane");
     ClipPlane clip;
     if (const auto cap = node.find("cap")) clip.cap = cap->boolean();
     const JsonNode plane = node.require("plane");
@@ -25,19 +40,86 @@ ClipPlane readPlane(const JsonNode& node) {
     return clip;
 }
 
-}  // namespace
-
-std::vector<ClipPlane> readClip(const JsonNode& list) {
-    std::vector<ClipPlane> planes;
-    for (std::size_t i = 0; i < list.size(); ++i) planes.push_back(readPlane(list.item(i)));
-    return planes;
+ClipSolid readSolid(const JsonNode& node) {
+    refuse(node, std::array{Word("plane"), Word("cap")}, "a solid");
+    ClipSolid clip;
+    clip.shape = static_cast<SolidShape>(node.require("solid").choice(kShapes));
+    if (const auto keep = node.find("keep")) clip.keep = static_cast<Keep>(keep->choice(kKeeps));
+    if (const auto place = node.find("place")) clip.place = readPlacement(*place);
+    return clip;
 }
 
-nlohmann::ordered_json clipJson(const std::vector<ClipPlane>& planes) {
+/// The one whose samples rays go through; null where there is none.
+const Volume* sampled(const Scene& scene) {
+    if (scene.volumes.empty() || !(scene.layers || scene.shaded)) return nullptr;
+    const std::string& name = scene.layers ? scene.layers->volume : scene.shaded->volume;
+    for (const Volume& volume : scene.volumes) {
+        if (name.empty() || volume.name == name) return &volume;
+    }
+    return nullptr;
+}
+
+/// The first solid of a list that has one.
+JsonNode firstSolid(const JsonNode& list) {
+    std::size_t i = 0;
+    while (!list.item(i).find("solid")) ++i;
+    return list.item(i);
+}
+
+void checkVolume(const Scene& scene, const Volume& volume, const JsonNode& clip) {
+    const std::size_t byRays = scene.layers && &volume == sampled(scene) ? 1 : 0;
+    const bool drawsSurfaces = volume.surfaces.size() > byRays;
+    if (drawsSurfaces) {
+        firstSolid(clip).failUnavailable("clipping surfaces by a solid",
+                                         "use planes, or show the volume by the style \"volume\" without "
+                                         "surfaces or by the style \"layers\" with one");
+    }
+    const std::size_t count = scene.solids.size() + volume.solids.size();
+    if (count > kMostSolids) {
+        firstSolid(clip).fail(std::to_string(count) + " solids clip one volume",
+                              "use at most " + std::to_string(kMostSolids));
+    }
+}
+
+}  // namespace
+
+void readClip(const JsonNode& list, std::vector<ClipPlane>& planes, std::vector<ClipSolid>& solids) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const JsonNode node = list.item(i);
+        node.object();
+        for (const char* key : {"mesh", "method"}) {
+            if (const auto found = node.find(key))
+                found->failUnavailable("clipping by a mesh", "use a plane or a solid");
+        }
+        if (node.find("solid")) {
+            solids.push_back(readSolid(node));
+        } else {
+            planes.push_back(readPlane(node));
+        }
+    }
+}
+
+void checkSolids(const JsonNode& root, const Scene& scene) {
+    for (std::size_t i = 0; i < scene.volumes.size(); ++i) {
+        const Volume& volume = scene.volumes[i];
+        if (!volume.solids.empty()) {
+            checkVolume(scene, volume, root.require("volumes").item(i).require("clip"));
+        } else if (!scene.solids.empty()) {
+            checkVolume(scene, volume, root.require("clip"));
+        }
+    }
+}
+
+nlohmann::ordered_json clipJson(const std::vector<ClipPlane>& planes, const std::vector<ClipSolid>& solids) {
     auto json = nlohmann::ordered_json::array();
     for (const ClipPlane& each : planes) {
         const glm::dvec4& p = each.plane;
         json.push_back({{"plane", nlohmann::ordered_json::array({p.x, p.y, p.z, p.w})}, {"cap", each.cap}});
+    }
+    for (const ClipSolid& each : solids) {
+        json.push_back({{"solid", kShapes[static_cast<std::size_t>(each.shape)]},
+                        {"keep", kKeeps[static_cast<std::size_t>(each.keep)]},
+                        {"place", placementJson(each.place)}});
     }
     return json;
 }

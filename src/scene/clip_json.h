@@ -10,9 +10,12 @@
 namespace isoglass {
 
 /// Reads a list of clip objects.
-std::vector<ClipPlane> readClip(const JsonNode& list);
+void readClip(const JsonNode& list, std::vector<ClipPlane>& planes, std::vector<ClipSolid>& solids);
 
-/// The same as JSON.
-nlohmann::ordered_json clipJson(const std::vector<ClipPlane>& planes);
+/// Throws where solids would have to clip what is drawn as a mesh, or are too many for a volume.
+void checkSolids(const JsonNode& root, const Scene& scene);
+
+/// The same as JSON: first the planes, then the solids.
+nlohmann::ordered_json clipJson(const std::vector<ClipPlane>& planes, const std::vector<ClipSolid>& solids);
 
 }  // namespace isoglass

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/clip_solid.h"
 #include "scene/field_color.h"
 #include "scene/illustrative_style.h"
 #include "scene/layer_style.h"
@@ -91,6 +92,16 @@ struct ClipPlane {
     friend bool operator==(const ClipPlane&, const ClipPlane&) = default;
 };
 
+/// A solid that clips volumes which rays go through; what several solids and planes keep is what each of them
+/// keeps.
+struct ClipSolid {
+    SolidShape shape = SolidShape::box;
+    Keep keep = Keep::inside;
+    Placement place{};
+
+    friend bool operator==(const ClipSolid&, const ClipSolid&) = default;
+};
+
 struct Volume {
     std::string name;
     /// Absolute, or relative to the working directory. The name of the file may be a pattern with * and ?.
@@ -99,9 +110,10 @@ struct Volume {
     std::string grid;                               ///< name that the series must have; empty takes any
     Placement place;
     ClockMap time;
-    std::vector<ClipPlane> clip{};  ///< in series coordinates
-    bool closed = false;            ///< what is inside is capped where the domain ends
-    std::vector<Surface> surfaces;  ///< at least one, but for a volume of the style "volume"
+    std::vector<ClipPlane> clip{};    ///< in series coordinates
+    std::vector<ClipSolid> solids{};  ///< likewise
+    bool closed = false;              ///< what is inside is capped where the domain ends
+    std::vector<Surface> surfaces;    ///< at least one, but for a volume of the style "volume"
 
     friend bool operator==(const Volume&, const Volume&) = default;
 };
@@ -219,6 +231,7 @@ struct Scene {
     std::optional<IllustrativeStyle> illustrative{};  ///< that style; never two of the three
     std::optional<VolumeStyle> shaded{};              ///< the style "volume": its volume exists
     std::vector<ClipPlane> clip;                      ///< of all volumes, in world coordinates
+    std::vector<ClipSolid> solids{};                  ///< likewise; kMostSolids a volume with its own
     /// Keys that were understood but change nothing in this version, a sentence each.
     std::vector<std::string> notes;
 

@@ -8,6 +8,7 @@
 #include "scene/json_document.h"
 #include "scene/json_node.h"
 #include "scene/opacity_json.h"
+#include "scene/placement_json.h"
 #include "scene/scene_format.h"
 #include "scene/style_json.h"
 #include "scene/transparency.h"
@@ -46,26 +47,6 @@ Surface readSurface(const JsonNode& node, const std::filesystem::path& baseFolde
     if (const auto opacity = node.find("opacity")) readOpacity(*opacity, surface);
     if (const auto secondary = node.find("secondary")) surface.secondary = secondary->boolean();
     return surface;
-}
-
-Placement readPlacement(const JsonNode& node) {
-    node.object();
-    Placement place;
-    if (const auto translate = node.find("translate")) place.translate = translate->vector();
-    if (const auto rotate = node.find("rotate")) {
-        rotate->numbers(4, [&](std::size_t i, double value) { place.rotate[static_cast<int>(i)] = value; });
-        const double length = glm::length(glm::dvec3(place.rotate));
-        if (!(length > 0) || !std::isfinite(length))
-            rotate->fail("expected an axis that is not zero", "[x, y, z, angle]");
-    }
-    if (const auto scale = node.find("scale")) {
-        place.scale = scale->vector();
-        for (int i = 0; i < 3; ++i) {
-            if (place.scale[i] == 0)
-                scale->item(static_cast<std::size_t>(i)).failExpected("a number other than 0");
-        }
-    }
-    return place;
 }
 
 ClockMap readClock(const JsonNode& node) {
@@ -119,7 +100,7 @@ Volume readVolume(const JsonNode& node, const std::filesystem::path& baseFolder,
         constexpr std::array kBoundaries{Word("open"), Word("closed")};
         volume.closed = boundary->choice(kBoundaries) == 1;
     }
-    if (const auto clip = node.find("clip")) volume.clip = readClip(*clip);
+    if (const auto clip = node.find("clip")) readClip(*clip, volume.clip, volume.solids);
     readSurfaces(node, baseFolder, surfacesMayBeEmpty, volume);
     return volume;
 }
@@ -304,10 +285,11 @@ Scene readScene(const JsonNode& root, const std::filesystem::path& baseFolder) {
     if (const auto image = root.find("image")) scene.image = readImage(*image);
     if (const auto lighting = root.find("lighting")) scene.lighting = readLighting(*lighting);
     if (const auto method = root.find("transparency")) scene.transparency = readTransparency(*method);
-    if (const auto clip = root.find("clip")) scene.clip = readClip(*clip);
+    if (const auto clip = root.find("clip")) readClip(*clip, scene.clip, scene.solids);
     if (const auto detail = root.find("detail")) readDetail(*detail, scene);
     if (const auto quality = root.find("quality")) readQuality(*quality, scene);
     if (const auto style = root.find("style")) readStyle(*style, scene);
+    checkSolids(root, scene);
     return scene;
 }
 

@@ -19,7 +19,8 @@ constexpr std::array kScene{Key("$schema"),      Key("version"), Key("volumes"),
                             Key("terrain"),      Key("ocean"),   Key("sky"),     Key("style")};
 constexpr std::array kVolume{Key("name"), Key("series"),   Key("grid"), Key("place"),
                              Key("time"), Key("boundary"), Key("clip"), Key("surfaces")};
-constexpr std::array kClip{Key("plane"), Key("cap"), Key("mesh"), Key("keep"), Key("method")};
+constexpr std::array kClip{Key("plane"), Key("cap"),  Key("solid"), Key("place"),
+                           Key("keep"),  Key("mesh"), Key("method")};
 constexpr std::array kPlace{Key("translate"), Key("rotate"), Key("scale")};
 constexpr std::array kClock{Key("offset"), Key("scale")};
 constexpr std::array kSurface{Key("iso"), Key("inside"), Key("color"), Key("opacity"), Key("secondary")};
@@ -59,7 +60,9 @@ constexpr std::array kStyle{Key("kind"),
                             Key("front"),
                             Key("back"),
                             Key("unit"),
-                            Key("lit")};
+                            Key("lit"),
+                            Key("cut")};
+constexpr std::array kCutLight{Key("thickness"), Key("weight")};
 
 constexpr std::array kFormat{
     FormatObject{"", kScene},
@@ -67,6 +70,7 @@ constexpr std::array kFormat{
     FormatObject{"/volumes/*/place", kPlace},
     FormatObject{"/volumes/*/time", kClock},
     FormatObject{"/volumes/*/clip/*", kClip},
+    FormatObject{"/volumes/*/clip/*/place", kPlace},
     FormatObject{"/volumes/*/surfaces/*", kSurface},
     FormatObject{"/volumes/*/surfaces/*/color", kColor},
     FormatObject{"/volumes/*/surfaces/*/opacity", kOpacity},
@@ -81,7 +85,9 @@ constexpr std::array kFormat{
     FormatObject{"/detail", kDetail},
     FormatObject{"/quality", kQuality},
     FormatObject{"/clip/*", kClip},
+    FormatObject{"/clip/*/place", kPlace},
     FormatObject{"/style", kStyle},
+    FormatObject{"/style/cut", kCutLight},
 };
 
 std::size_t editDistance(std::string_view a, std::string_view b) {

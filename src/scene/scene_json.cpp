@@ -2,6 +2,7 @@
 #include "scene/color.h"
 #include "scene/color_json.h"
 #include "scene/opacity_json.h"
+#include "scene/placement_json.h"
 #include "scene/scene_file.h"
 #include "scene/style_json.h"
 #include "scene/transparency.h"
@@ -31,17 +32,10 @@ Json surface(const Surface& surface, const std::filesystem::path& baseFolder) {
             {"secondary", surface.secondary}};
 }
 
-Json placement(const Placement& place) {
-    const glm::dvec4& rotate = place.rotate;
-    return {{"translate", vector(place.translate)},
-            {"rotate", Json::array({rotate.x, rotate.y, rotate.z, rotate.w})},
-            {"scale", vector(place.scale)}};
-}
-
 Json mesh(const MeshObject& mesh, const std::filesystem::path& baseFolder) {
     return {{"name", mesh.name},
             {"file", relativeSeriesPath(mesh.file, baseFolder)},
-            {"place", placement(mesh.place)},
+            {"place", placementJson(mesh.place)},
             {"color", hexFromLinear(mesh.color)},
             {"opacity", shortestDouble(mesh.opacity)},
             {"secondary", mesh.secondary}};
@@ -55,10 +49,10 @@ Json volume(const Volume& volume, const std::filesystem::path& baseFolder) {
             json["series"].push_back(relativeSeriesPath(file, baseFolder));
     }
     if (!volume.grid.empty()) json["grid"] = volume.grid;
-    json["place"] = placement(volume.place);
+    json["place"] = placementJson(volume.place);
     json["time"] = {{"offset", volume.time.offset}, {"scale", volume.time.scale}};
     json["boundary"] = volume.closed ? "closed" : "open";
-    json["clip"] = clipJson(volume.clip);
+    json["clip"] = clipJson(volume.clip, volume.solids);
     json["surfaces"] = Json::array();
     for (const Surface& each : volume.surfaces) json["surfaces"].push_back(surface(each, baseFolder));
     return json;
@@ -109,7 +103,7 @@ std::string toJson(const Scene& scene, const std::filesystem::path& baseFolder) 
                         {"specular", shortestDouble(scene.lighting.specular)},
                         {"shininess", shortestDouble(scene.lighting.shininess)}};
     json["transparency"] = transparencyJson(scene.transparency);
-    json["clip"] = clipJson(scene.clip);
+    json["clip"] = clipJson(scene.clip, scene.solids);
     const Quality& quality = scene.quality;
     if (quality.pixels) json["detail"]["pixels"] = *quality.pixels;
     if (quality.errorPixels) json["detail"]["error_pixels"] = *quality.errorPixels;

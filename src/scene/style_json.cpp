@@ -20,6 +20,8 @@ namespace {
 using Word = std::string_view;
 
 constexpr std::array kKinds{Word("layers"), Word("illustrative"), Word("volume")};
+/// In the order of CutLight::Weight.
+constexpr std::array kWeights{Word("step"), Word("ramp"), Word("smooth")};
 /// In the order of LayerStyle::Show.
 constexpr std::array kShows{Word("nth"), Word("blend"), Word("composed"), Word("silhouettes")};
 
@@ -139,9 +141,18 @@ void readPoints(const JsonNode& node, Store store) {
     }
 }
 
+CutLight readCutLight(const JsonNode& node) {
+    node.object();
+    CutLight cut;
+    cut.thickness = node.require("thickness").number({.low = 0, .openLow = true});
+    if (const auto weight = node.find("weight"))
+        cut.weight = static_cast<CutLight::Weight>(weight->choice(kWeights));
+    return cut;
+}
+
 VolumeStyle readShaded(const JsonNode& node, const Scene& scene) {
     constexpr std::array kKeys{Word("kind"), Word("volume"), Word("colors"), Word("opacities"),
-                               Word("unit"), Word("step"),   Word("lit")};
+                               Word("unit"), Word("step"),   Word("lit"),    Word("cut")};
     checkKeys(node, kKeys, kKinds[2]);
     if (scene.volumes.empty())
         node.fail("the style \"volume\" needs a volume", "add one, or remove \"style\"");
@@ -156,6 +167,10 @@ VolumeStyle readShaded(const JsonNode& node, const Scene& scene) {
     if (const auto unit = node.find("unit")) style.unit = unit->number({.low = 0, .openLow = true});
     if (const auto step = node.find("step")) style.step = step->number({.low = 0.01, .high = 8});
     if (const auto lit = node.find("lit")) style.lit = lit->boolean();
+    if (const auto cut = node.find("cut")) {
+        if (!style.lit) cut->fail("\"cut\" lights what \"lit\": false leaves without light", "remove one");
+        style.cut = readCutLight(*cut);
+    }
     const std::string& shown = style.volume.empty() ? scene.volumes.front().name : style.volume;
     for (const Volume& volume : scene.volumes) {
         if (volume.surfaces.empty() && volume.name != shown)
@@ -214,6 +229,10 @@ nlohmann::ordered_json styleJson(const VolumeStyle& style) {
     if (style.unit) json["unit"] = *style.unit;
     json["step"] = style.step;
     json["lit"] = style.lit;
+    if (style.cut) {
+        json["cut"] = {{"thickness", style.cut->thickness},
+                       {"weight", kWeights[static_cast<std::size_t>(style.cut->weight)]}};
+    }
     return json;
 }
 

@@ -139,6 +139,13 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"/clip", R"([{"plane": [1, 0, 0, 0]}, {}])", "/clip/1/plane", "missing"},
         Wrong{"/volumes/0/clip", R"([{"plane": [1, 0, 0, 0], "cap": 1}])", "/volumes/0/clip/0/cap",
               "true or false"},
+        Wrong{"/clip", R"([{"solid": "ball"}])", "/clip/0/solid", "one of box, sphere, cylinder"},
+        Wrong{"/clip", R"([{"solid": "box", "plane": [1, 0, 0, 0]}])", "/clip/0/plane", "does not belong"},
+        Wrong{"/clip", R"([{"solid": "box", "cap": true}])", "/clip/0/cap", "does not belong"},
+        Wrong{"/clip", R"([{"plane": [1, 0, 0, 0], "keep": "inside"}])", "/clip/0/keep", "does not belong"},
+        Wrong{"/clip", R"([{"solid": "box", "keep": "left"}])", "/clip/0/keep", "one of inside, outside"},
+        Wrong{"/clip", R"([{"solid": "box", "place": {"scale": [1, 0, 1]}}])", "/clip/0/place/scale/1",
+              "other than 0"},
         Wrong{"/transparency/method", "\"5-pass\"", nullptr, "did you mean"},
         Wrong{"/transparency/layers", "4", nullptr, "belongs to the method \"peel\""},
         Wrong{"/transparency", R"({"method": "peel", "layers": 0})", "/transparency/layers", "from 1 to 256"},
@@ -155,6 +162,10 @@ INSTANTIATE_TEST_SUITE_P(NotAvailable, SceneErrors,
                                                "/volumes/0/clip/0/mesh", "not available in this version"},
                                          Wrong{"/clip", R"([{"mesh": "bunny.ply"}])", "/clip/0/mesh",
                                                "not available in this version"},
+                                         Wrong{"/clip", R"([{"plane": [1, 0, 0, 0]}, {"solid": "box"}])",
+                                               "/clip/1", "clipping surfaces by a solid"},
+                                         Wrong{"/volumes/0/clip", R"([{"solid": "box"}])",
+                                               "/volumes/0/clip/0", "clipping surfaces by a solid"},
                                          Wrong{"/terrain", "{}", nullptr, "not available in this version"},
                                          Wrong{"/ocean", "{}", nullptr, "not available in this version"},
                                          Wrong{"/sky", "{}", nullptr, "not available in this version"}));
@@ -201,6 +212,12 @@ TEST(SceneErrors, EveryKnownKeyIsLookedAt) {
             if (object.pointer == "/camera/path/*") scene["camera"]["eye"] = {3, 2, 1};
             if (object.pointer.starts_with("/meshes/*")) scene["meshes"][0]["file"] = "a.ply";
             if (object.pointer == "/style") scene["style"] = {{"kind", "layers"}};
+            if (object.pointer == "/style/cut") {
+                scene["style"] = json::parse(R"({"kind": "volume", "colors": [[0, "#ff0000"]],
+                    "opacities": [[0, 1]], "cut": {"thickness": 1}})");
+            }
+            if (object.pointer.ends_with("/clip/*/place"))
+                scene[json::json_pointer(pointer).parent_pointer()]["solid"] = "box";
             scene[json::json_pointer(place)] = nullptr;
             const std::string message = messageOf(scene.dump());
             EXPECT_NE(message.find("(scene.json, " + place + ")"), std::string::npos) << message;

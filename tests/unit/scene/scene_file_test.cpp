@@ -149,6 +149,30 @@ TEST(SceneFile, RoundTripThroughJsonKeepsEverything) {
     }
 }
 
+TEST(SceneFile, SolidsClipWhatRaysGoThrough) {
+    const auto withClip = [](const std::string& clip, const std::string& style) {
+        return parse(R"({"version": 1, "volumes": [{"series": "a.vdb", "surfaces": [{"iso": 2}],
+            "clip": [{"solid": "cylinder"}]}], "style": {)" +
+                     style + R"(}, "clip": )" + clip + "}");
+    };
+    const std::string layers = R"("kind": "layers")";
+    const Scene scene = withClip(R"([{"solid": "sphere", "keep": "outside", "place": {"translate": [1, 2, 3],
+        "rotate": [1, 0, 0, 30], "scale": [4, 5, -6]}}, {"plane": [1, 0, 0, 0]}])",
+                                 layers);
+    EXPECT_EQ(scene.volumes[0].solids, std::vector{ClipSolid{.shape = SolidShape::cylinder}});
+    EXPECT_EQ(scene.solids, std::vector{ClipSolid(SolidShape::sphere, Keep::outside,
+                                                  {{1, 2, 3}, {1, 0, 0, 30}, {4, 5, -6}})});
+    EXPECT_EQ(scene.clip.size(), 1u);
+    EXPECT_EQ(parseScene(toJson(scene), "", "round trip"), scene) << toJson(scene);
+    std::string many = R"({"solid": "box"})";
+    for (int i = 1; i < 7; ++i) many += R"(, {"solid": "box"})";
+    EXPECT_NO_THROW(withClip("[" + many + "]", layers));
+    EXPECT_THROW(withClip("[" + many + R"(, {"solid": "box"}])", layers), Error);
+    // A surface that stands in a shaded volume is drawn as a mesh.
+    EXPECT_THROW(withClip("[]", R"("kind": "volume", "colors": [[0, "#ff0000"]], "opacities": [[0, 1]])"),
+                 Error);
+}
+
 TEST(SceneFile, MeshesMayTakeThePlaceOfVolumes) {
     const Scene scene = parse(R"({"version": 1, "meshes": [
         {"file": "../data/bunny.ply"},

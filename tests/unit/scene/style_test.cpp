@@ -83,6 +83,24 @@ TEST(StyleJson, EveryKeyOfAMediumIsReadAndWritten) {
     EXPECT_EQ(parseScene(toJson(scene), "", "round trip"), scene) << toJson(scene);
 }
 
+TEST(StyleJson, CutsAreLit) {
+    const auto withCut = [](const std::string& cut) {
+        return parseWith(R"({"kind": "volume", "colors": [[0, "#ff0000"]], "opacities": [[0, 1]], "cut": )" +
+                         cut + "}");
+    };
+    using Weight = CutLight::Weight;
+    EXPECT_EQ(withCut(R"({"thickness": 2})").shaded->cut, (CutLight{2, Weight::ramp}));
+    for (const auto& [word, weight] : {std::pair("step", Weight::step), std::pair("ramp", Weight::ramp),
+                                       std::pair("smooth", Weight::smooth)}) {
+        const Scene scene = withCut(R"({"thickness": 0.5, "weight": ")" + std::string(word) + "\"}");
+        EXPECT_EQ(scene.shaded->cut, (CutLight{0.5, weight}));
+        EXPECT_EQ(parseScene(toJson(scene), "", "round trip"), scene) << toJson(scene);
+    }
+    for (const char* wrong : {"{}", R"({"thickness": 0})", R"({"thickness": 1, "weight": "hard"})", "1",
+                              R"({"thickness": 1}, "lit": false)"})
+        EXPECT_THROW(withCut(wrong), Error) << wrong;
+}
+
 TEST(StyleJson, ColoursAndOpacitiesOfAMediumAreNeededAndGrow) {
     EXPECT_THROW(parseWith(R"({"kind": "volume", "colors": [[0, "#ff0000"]]})"), Error);
     EXPECT_THROW(parseWith(R"({"kind": "volume", "opacities": [[0, 1]]})"), Error);

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+
+namespace isoglass {
+
+/// A solid in its own coordinates, about the origin.
+enum class SolidShape {
+    box,       ///< [-1,1]^3
+    sphere,    ///< of radius 1
+    cylinder,  ///< of radius 1 about the z axis, from z = -1 to 1
+};
+
+/// What a clip object leaves of a volume (D. Weiskopf, K. Engel and T. Ertl, "Interactive Clipping Techniques
+/// for Texture-Based Volume Visualization and Volume Shading", 2003, section 3).
+enum class Keep {
+    inside,   ///< volume probing
+    outside,  ///< volume cutting
+};
+
+inline constexpr std::size_t kMostSolids = 8;  ///< that clip one volume
+
+}  // namespace isoglass
