@@ -92,8 +92,8 @@ bool passLayer(float t) {
 }
 
 // Samples lie at even steps where the axes are even, whichever bricks are left out; the last one lies at
-// the end.
-void traverse() {
+// the end. Returns whether nothing behind matters.
+bool traverse() {
     bool known = false;
     bool inside = false;
     float tBefore = 0.0;
@@ -130,10 +130,10 @@ void traverse() {
         if (known && now != inside) {
             bool ends = passLayer(crossing(from, to));
 #ifndef WHOLE_RAY
-            if (ends) return;
+            if (ends) return true;
 #endif
         }
-        if (t >= last) return;
+        if (t >= last) return false;
         known = valid;
         inside = now;
         float dt = stepCells / length(way / cellWidth(cell));
@@ -141,7 +141,7 @@ void traverse() {
         if (leftOut) {
             // Up to the brick's end nothing changes.
             float end = max(brickEnd(brick), t);
-            if (end >= last) return;
+            if (end >= last) return false;
 #ifdef UNEVEN_AXES
             tBefore = end;
             t = end + kNudge * dt;
@@ -159,11 +159,15 @@ void traverse() {
         }
         t = min(t, last);
     }
+    return false;
 }
 
 void main() {
     beginRay();
-    if (last > 0.0) traverse();
+    if (last > 0.0) {
+        while (!traverse() && nextPart()) {
+        }
+    }
 #ifdef MEASURE
     opaqueColor = vec4(wantedDepth, float(layer), 0.0, 1.0);
 #else

@@ -1,6 +1,9 @@
 #version 450 core
 #include "lib/lighting.glsl"
 #include "lib/volume_ray.glsl"
+#ifdef CUT_LIGHT
+#include "lib/cut_light.glsl"
+#endif
 
 // Emission and absorption (D. Weiskopf, K. Engel and T. Ertl, "Interactive Clipping Techniques for Texture-Based Volume
 // Visualization and Volume Shading", 2003, equations 8 and 9): a step lets through the power of its length of what a
@@ -12,6 +15,9 @@ layout(binding = 21) uniform sampler2D transfer;       // color, opacity of a un
 layout(binding = 22) uniform sampler2D visibleRanges;  // row a, column b: any opacity in the bins a to b
 
 const int kBins = 64;
+
+vec3 color = vec3(0.0);  // times opacity
+float transmittance = 1.0;
 
 // Of a value, 0 to the last entry.
 float entryOf(float value) {
@@ -32,18 +38,21 @@ bool isVisible(vec2 range) {
     return texelFetch(visibleRanges, bins.yx, 0).r > 0.0;
 }
 
-// A flat place sends its light everywhere.
-vec3 lightOf(vec3 color, vec3 index) {
-    if (litByGradient == 0) return color;
+// A flat place sends its light everywhere. Near a cut the cut's own light takes a share (section 5.2).
+vec3 lightOf(vec3 own, vec3 index, float t) {
+    if (litByGradient == 0) return own;
     vec3 normal = normalFromLocal * gradientAt(index);
     float length = length(normal);
-    return litColor(color, length > 0.0 ? min(abs(dot(normal, toEye)) / length, 1.0) : 1.0);
+    vec3 light = litColor(own, length > 0.0 ? min(abs(dot(normal, toEye)) / length, 1.0) : 1.0);
+#ifdef CUT_LIGHT
+    Cut cut = nearestCut(start + t * way);
+    light += cutWeightAt(cut.distance) * (litColor(own, min(abs(dot(cut.normal, toEye)), 1.0)) - light);
+#endif
+    return light;
 }
 
-void main() {
-    beginRay();
-    vec3 color = vec3(0.0);
-    float transmittance = 1.0;
+// Through one part of the ray.
+void traverse() {
     float unitsPerT = perUnit * length(worldFromLocal * way);
     float t = 0.0;
     int i = 0;
@@ -73,9 +82,9 @@ void main() {
         vec4 medium = isnan(value) ? vec4(0.0) : transferred(value);
         if (medium.a > 0.0) {
             float through = pow(1.0 - medium.a, (end - t) * unitsPerT);
-            color += transmittance * (1.0 - through) * lightOf(medium.rgb, index);
+            color += transmittance * (1.0 - through) * lightOf(medium.rgb, index, 0.5 * (t + end));
             transmittance *= through;
-            if (transmittance <= kOpaqueEnough) break;
+            if (transmittance <= kOpaqueEnough) return;
         }
 #ifdef UNEVEN_AXES
         t = end;
@@ -83,5 +92,12 @@ void main() {
         t = float(++i) * dt;
 #endif
     }
+}
+
+void main() {
+    beginRay();
+    do {
+        traverse();
+    } while (transmittance > kOpaqueEnough && nextPart());
     opaqueColor = vec4(color, 1.0 - transmittance);
 }

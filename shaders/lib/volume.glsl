@@ -10,7 +10,7 @@ layout(std140, binding = 3) uniform Volume {
     vec4 indexPerUnit;       // even axes: index = (p - boxLow) * indexPerUnit
     mat3 worldFromLocal;     // directions
     mat3 normalFromLocal;    // gradients, up to a factor
-    vec4 planes[16];         // local; keep a x + b y + c z + d >= 0
+    vec4 planes[16];         // local; keep a x + b y + c z + d >= 0, a distance in the world
     ivec4 samples;           // along x, y, z
     vec2 shift;              // of the pixel's sample in clip space
     float fraction;          // of the time between the key frames
@@ -27,6 +27,13 @@ layout(std140, binding = 3) uniform Volume {
     float transferScale;     // its entries a value
     float perUnit;           // one over the world length that its opacities are meant for
     int litByGradient;
+    int solidCount;
+    ivec4 solids[8];         // SolidShape, Keep
+    vec4 solidRows[24];      // three a solid: its coordinate k of p is dot(row k, vec4(p, 1))
+    vec4 solidGradients[24]; // in the world, of those coordinates
+    vec4 planeNormals[16];   // in the world, of length 1
+    float cutThickness;      // world
+    int cutWeight;           // CutLight::Weight
 };
 
 layout(binding = 16) uniform sampler3D valuesA;

@@ -84,7 +84,14 @@ struct VolumeUniforms {
     float transferScale;
     float perUnit;
     int litByGradient;  ///< 0 or 1
-    float padding[1] = {};
+    int solidCount;
+    std::array<glm::ivec4, 8> solids;     ///< SolidShape, Keep
+    std::array<glm::vec4, 24> solidRows;  ///< three a solid: of the matrix that maps local to its coordinates
+    std::array<glm::vec4, 24> solidGradients;  ///< in the world, of those coordinates
+    std::array<glm::vec4, 16> planeNormals;    ///< in the world, of length 1
+    float cutThickness;
+    int cutWeight;  ///< CutLight::Weight
+    float padding[2] = {};
 };
 
 /// Uniform block `Illustration` of shaders/lib/illustration.glsl, std140.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/volume_store.h"
+#include "scene/clip_solid.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
@@ -11,6 +12,15 @@
 namespace isoglass {
 
 inline constexpr std::size_t kMostVolumePlanes = 16;
+
+/// A solid that clips a volume.
+struct SolidClip {
+    SolidShape shape = SolidShape::box;
+    Keep keep = Keep::inside;
+    glm::dmat4 seriesFromSolid{1};  ///< affine, invertible
+
+    friend bool operator==(const SolidClip&, const SolidClip&) = default;
+};
 
 /// A volume that rays go through, as the frame shows it: in front of the background and of opaque surfaces as
 /// far as those leave it free, behind semi-transparent surfaces.
@@ -26,6 +36,7 @@ struct VolumeDraw {
     std::array<std::vector<double>, 3> axes;
     std::vector<glm::dvec4>
         planes;  ///< series coordinates; keep a x + b y + c z + d >= 0. At most kMostVolumePlanes
+    std::vector<SolidClip> solids{};  ///< at most kMostSolids
 
     friend bool operator==(const VolumeDraw&, const VolumeDraw&) = default;
 };

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "render/uniforms.h"
 
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -68,6 +69,37 @@ glm::vec4 direction(const glm::dvec3& v) {
     return {glm::vec3(v), 0};
 }
 
+/// `turned` and `middle` are those of LocalAxis.
+void setPlanes(const VolumeDraw& volume, const glm::dvec3& turned, const glm::dvec3& middle,
+               const glm::dmat3& localFromWorld, VolumeUniforms& uniforms) {
+    for (std::size_t i = 0; i < volume.planes.size(); ++i) {
+        const glm::dvec3 normal(volume.planes[i]);
+        const glm::dvec3 gradient = (turned * normal) * localFromWorld;
+        const double length = glm::length(gradient);
+        uniforms.planes[i] =
+            glm::vec4(glm::dvec4(turned * normal, volume.planes[i].w + glm::dot(normal, middle)) / length);
+        uniforms.planeNormals[i] = direction(gradient / length);
+    }
+    uniforms.planeCount = static_cast<int>(volume.planes.size());
+}
+
+void setSolids(const VolumeDraw& volume, const glm::dvec3& turned, const glm::dvec3& middle,
+               const glm::dmat3& localFromWorld, VolumeUniforms& uniforms) {
+    static_assert(std::tuple_size_v<decltype(VolumeUniforms::solids)> == kMostSolids);
+    const glm::dmat4 localFromSeries = glm::translate(glm::scale(glm::dmat4(1), turned), -middle);
+    for (std::size_t i = 0; i < volume.solids.size(); ++i) {
+        const SolidClip& solid = volume.solids[i];
+        const glm::dmat4 rows = glm::transpose(glm::inverse(localFromSeries * solid.seriesFromSolid));
+        uniforms.solids[i] = {static_cast<int>(solid.shape), static_cast<int>(solid.keep), 0, 0};
+        for (int k = 0; k < 3; ++k) {
+            const std::size_t row = 3 * i + static_cast<std::size_t>(k);
+            uniforms.solidRows[row] = rows[k];
+            uniforms.solidGradients[row] = direction(glm::dvec3(rows[k]) * localFromWorld);
+        }
+    }
+    uniforms.solidCount = static_cast<int>(volume.solids.size());
+}
+
 }  // namespace
 
 VolumeRecorder::VolumeRecorder() : uniforms_(gl::Buffer::updatable(sizeof(VolumeUniforms))) {}
@@ -82,6 +114,10 @@ void VolumeRecorder::prepare(const std::optional<LayerDraw>& layers, const std::
         throw Error(std::to_string(draw()->planes.size()) + " planes cut a volume that rays go through",
                     "clip", "use at most " + std::to_string(kMostVolumePlanes));
     }
+    if (draw()->solids.size() > kMostSolids) {
+        throw Error(std::to_string(draw()->solids.size()) + " solids clip a volume that rays go through",
+                    "clip", "use at most " + std::to_string(kMostSolids));
+    }
     evenAxes_ = std::ranges::all_of(draw()->axes, isEven);
 }
 
@@ -90,12 +126,19 @@ const VolumeDraw* VolumeRecorder::draw() const {
     return shaded_ ? &*shaded_ : nullptr;
 }
 
+bool VolumeRecorder::lightsCuts() const {
+    return shaded_ && shaded_->style.lit && shaded_->style.cut &&
+           !(shaded_->planes.empty() && shaded_->solids.empty());
+}
+
 VolumeVariant VolumeRecorder::variant() const {
     VolumeVariant variant;
     if (draw() == nullptr) return variant;
     const bool two = draw()->fraction > 0;
     if (two) variant.defines.push_back("TWO_KEY_FRAMES");
     if (!evenAxes_) variant.defines.push_back("UNEVEN_AXES");
+    if (!draw()->solids.empty()) variant.defines.push_back("SOLIDS");
+    if (lightsCuts()) variant.defines.push_back("CUT_LIGHT");
     if (layers_ && layers_->wholeRay) variant.defines.push_back("WHOLE_RAY");
     if (layers_ && layers_->output == LayerDraw::Output::measure) variant.defines.push_back("MEASURE");
     variant.units = {valuesA, rangesA};
@@ -135,12 +178,8 @@ void VolumeRecorder::upload(const CameraView& camera, glm::dvec2 clipShift, doub
     uniforms.up = direction(height * (localFromWorld * view.up));
     uniforms.worldFromLocal = columns(glm::inverse(localFromWorld));
     uniforms.normalFromLocal = columns(scaledToOne(glm::transpose(localFromWorld)));
-    for (std::size_t i = 0; i < volume.planes.size(); ++i) {
-        const glm::dvec4& plane = volume.planes[i];
-        uniforms.planes[i] =
-            glm::vec4(glm::dvec4(turned * glm::dvec3(plane), plane.w + glm::dot(glm::dvec3(plane), middle)));
-    }
-    uniforms.planeCount = static_cast<int>(volume.planes.size());
+    setPlanes(volume, turned, middle, localFromWorld, uniforms);
+    setSolids(volume, turned, middle, localFromWorld, uniforms);
     uniforms.shift = clipShift;
     uniforms.fraction = volume.fraction;
     uniforms.nearDistance = static_cast<float>(nearDistance);
@@ -181,6 +220,9 @@ void VolumeRecorder::setMedium(VolumeUniforms& uniforms) {
     uniforms.transferScale = table_.scale;
     uniforms.perUnit = static_cast<float>(1 / style.unit.value());
     uniforms.litByGradient = style.lit;
+    if (!style.cut) return;
+    uniforms.cutThickness = static_cast<float>(style.cut->thickness);
+    uniforms.cutWeight = static_cast<int>(style.cut->weight);
 }
 
 void VolumeRecorder::uploadAxes() {

@@ -42,6 +42,7 @@ class VolumeRecorder {
   private:
     /// Of the two the one that is there, or null.
     const VolumeDraw* draw() const;
+    bool lightsCuts() const;
     void uploadAxes();
     void setLayers(VolumeUniforms& uniforms) const;
     void setMedium(VolumeUniforms& uniforms);
