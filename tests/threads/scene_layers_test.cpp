@@ -8,6 +8,7 @@
 #include "support/terrain_lattice.h"
 #include "unit/volume/series_fixture.h"
 
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -143,6 +144,29 @@ TEST_F(SceneLayersTest, ClipPlanesReachTheRays) {
     const SceneMeshes meshes = extract(extractor, 0);
     ASSERT_TRUE(meshes.samples);
     EXPECT_EQ(meshes.samples->planes, (std::vector<glm::dvec4>{{1, 0, 0, 0.25}, {0, 0, 1, 0}}));
+}
+
+TEST_F(SceneLayersTest, SolidsReachTheRays) {
+    scene_.volumes[0].place = {.translate = {0, 0, 3}, .scale = {2, 2, 2}};
+    scene_.solids = {{SolidShape::sphere, Keep::outside, {.translate = {0, 0, 4}, .scale = {1, 1, 1}}}};
+    scene_.volumes[0].solids = {{SolidShape::box, Keep::inside, {.translate = {1, 0, 0}}}};
+    SceneExtractor extractor(scene_, {});
+    const SceneMeshes meshes = extract(extractor, 0);
+    gl::HeadlessContext context;
+    Renderer renderer(context.context());
+    SampleUploads uploads;
+    uploads.replace(meshes.samples, renderer.volumes());
+    FrameDescription frame;
+    uploads.describe(scene_, 0, frame);
+    ASSERT_TRUE(frame.layerDraw);
+    const auto& solids = frame.layerDraw->solids;
+    ASSERT_EQ(solids.size(), 2u);
+    EXPECT_EQ(solids[0],
+              (SolidClip{SolidShape::box, Keep::inside, glm::translate(glm::dmat4(1), glm::dvec3(1, 0, 0))}));
+    // Half as large in the coordinates of the series, where the middle lies at (4 - 3) / 2.
+    EXPECT_EQ(solids[1],
+              (SolidClip{SolidShape::sphere, Keep::outside,
+                         glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, 0.5)), glm::dvec3(0.5))}));
 }
 
 TEST_F(SceneLayersTest, SeriesWithHeightsAreRefused) {

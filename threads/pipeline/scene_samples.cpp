@@ -92,7 +92,7 @@ void SampleUploads::replace(const std::optional<SceneSamples>& samples, VolumeSt
     shown_ = samples;
 }
 
-VolumeDraw SampleUploads::volumeDraw(const Volume& volume, double motion) const {
+VolumeDraw SampleUploads::volumeDraw(const Scene& scene, const Volume& volume, double motion) const {
     VolumeDraw draw;
     draw.first = uploaded_.at(shown_->first);
     draw.second = draw.first;
@@ -103,6 +103,11 @@ VolumeDraw SampleUploads::volumeDraw(const Volume& volume, double motion) const 
     draw.worldFromSeries = worldFromSeries(volume.place);
     draw.axes = shown_->axes;
     draw.planes = shown_->planes;
+    for (const ClipSolid& solid : volume.solids)
+        draw.solids.push_back({solid.shape, solid.keep, worldFromSeries(solid.place)});
+    const glm::dmat4 seriesFromWorld = glm::inverse(draw.worldFromSeries);
+    for (const ClipSolid& solid : scene.solids)
+        draw.solids.push_back({solid.shape, solid.keep, seriesFromWorld * worldFromSeries(solid.place)});
     return draw;
 }
 
@@ -111,14 +116,14 @@ void SampleUploads::describe(const Scene& scene, double motion, FrameDescription
     const Volume& volume = scene.volumes[shown_->volume];
     if (scene.layers) {
         LayerDraw& draw = frame.layerDraw.emplace();
-        static_cast<VolumeDraw&>(draw) = volumeDraw(volume, motion);
+        static_cast<VolumeDraw&>(draw) = volumeDraw(scene, volume, motion);
         const Surface& surface = volume.surfaces.front();
         draw.iso = static_cast<float>(surface.iso);
         draw.style = *scene.layers;
         draw.color = surface.color;
     } else {
         ShadedDraw& draw = frame.shadedDraw.emplace();
-        static_cast<VolumeDraw&>(draw) = volumeDraw(volume, motion);
+        static_cast<VolumeDraw&>(draw) = volumeDraw(scene, volume, motion);
         draw.style = *scene.shaded;
         if (!draw.style.unit) draw.style.unit = usualUnit(draw);
     }

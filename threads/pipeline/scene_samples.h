@@ -57,7 +57,7 @@ class SampleUploads {
     void describe(const Scene& scene, double motion, FrameDescription& frame) const;
 
   private:
-    VolumeDraw volumeDraw(const Volume& volume, double motion) const;
+    VolumeDraw volumeDraw(const Scene& scene, const Volume& volume, double motion) const;
 
     std::optional<SceneSamples> shown_;
     std::map<std::shared_ptr<const VolumeSamples>, VolumeId> uploaded_;
