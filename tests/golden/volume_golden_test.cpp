@@ -3,6 +3,7 @@
 #include "support/golden.h"
 #include "volume/analytic.h"
 
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -70,6 +71,31 @@ TEST_F(VolumeGolden, Emitting) {
 TEST_F(VolumeGolden, Cut) {
     frame_.shadedDraw->planes = {{0, 1, 0, 0}};
     expectGolden("volume-cut");
+}
+
+/// A round hole, bored into the left kernel from the front, whose wall shows its pale hull above and its
+/// orange inside below, dark where the gradient runs across the view; a ball is cut out of the right kernel,
+/// so that its orange inside lies open, with its brightest point in the middle.
+TEST_F(VolumeGolden, CutBySolids) {
+    const glm::dmat4 bore =
+        glm::rotate(glm::translate(glm::dmat4(1), {-0.25, -0.5, 0.05}), M_PI / 2, {1, 0, 0});
+    frame_.shadedDraw->solids = {
+        {SolidShape::cylinder, Keep::outside, glm::scale(bore, {0.2, 0.2, 0.6})},
+        {SolidShape::sphere, Keep::outside,
+         glm::scale(glm::translate(glm::dmat4(1), {0.55, -0.3, 0.3}), glm::dvec3(0.35))}};
+    expectGolden("volume-cut-by-solids");
+}
+
+/// Both kernels lie open in the hollows that balls leave. With the light of cuts they are bright where they face the
+/// eye, out to their rims, where the gradient alone would leave dark rings.
+TEST_F(VolumeGolden, LitCuts) {
+    for (const glm::dvec3& middle : {glm::dvec3(-0.35, -0.45, 0.2), glm::dvec3(0.45, -0.35, 0.25)}) {
+        frame_.shadedDraw->solids.push_back(
+            {SolidShape::sphere, Keep::outside,
+             glm::scale(glm::translate(glm::dmat4(1), middle), glm::dvec3(0.4))});
+    }
+    frame_.shadedDraw->style.cut = CutLight{.thickness = 0.15, .weight = CutLight::Weight::smooth};
+    expectGolden("volume-lit-cuts");
 }
 
 }  // namespace
