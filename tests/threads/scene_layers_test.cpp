@@ -88,7 +88,12 @@ TEST_F(SceneLayersTest, FramesShowTheMomentBetweenKeyFrames) {
     EXPECT_EQ(frames, kFrames);
 }
 
-TEST_F(SceneLayersTest, EachKeyFrameIsMadeAndUploadedOnce) {
+class PlayingDirection : public SceneLayersTest, public testing::WithParamInterface<bool> {};
+
+INSTANTIATE_TEST_SUITE_P(Forwards, PlayingDirection, testing::Values(true));
+INSTANTIATE_TEST_SUITE_P(Backwards, PlayingDirection, testing::Values(false));
+
+TEST_P(PlayingDirection, EachKeyFrameIsMadeAndUploadedOnce) {
     SceneExtractor extractor(scene_, {});
     gl::HeadlessContext context;
     Renderer renderer(context.context());
@@ -97,7 +102,7 @@ TEST_F(SceneLayersTest, EachKeyFrameIsMadeAndUploadedOnce) {
     std::set<const VolumeSamples*> made;
     std::vector<SceneSamples> kept;
     for (int i = 0; i <= 20; ++i) {
-        const SceneMeshes meshes = extract(extractor, i / 20.0);
+        const SceneMeshes meshes = extract(extractor, (GetParam() ? i : 20 - i) / 20.0);
         ASSERT_TRUE(meshes.samples);
         kept.push_back(*meshes.samples);
         uploads.replace(meshes.samples, renderer.volumes());
@@ -167,6 +172,30 @@ TEST_F(SceneLayersTest, SolidsReachTheRays) {
     EXPECT_EQ(solids[1],
               (SolidClip{SolidShape::sphere, Keep::outside,
                          glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, 0.5)), glm::dvec3(0.5))}));
+}
+
+/// A cube of edge 2, moved, turned, mirrored and scaled: the longest of its diagonals in the world.
+TEST_F(SceneLayersTest, AMediumHasTheUnitOfItsOwnDiagonal) {
+    scene_.layers = std::nullopt;
+    scene_.volumes[0].surfaces.clear();
+    scene_.shaded = VolumeStyle{.colors = {{0, {1, 1, 1}}}, .opacities = {{0, 0.5f}}};
+    gl::HeadlessContext context;
+    Renderer renderer(context.context());
+    const auto unitAt = [&](const Placement& place) {
+        scene_.volumes[0].place = place;
+        SceneExtractor extractor(scene_, {});
+        SampleUploads uploads;
+        uploads.replace(extract(extractor, 0.5).samples, renderer.volumes());
+        FrameDescription frame;
+        uploads.describe(scene_, 0, frame);
+        return frame.shadedDraw.value().style.unit.value();
+    };
+    // A few operations in double precision on coordinates whose steps of 0.05 were rounded.
+    const double rounding = 64 * 0x1p-52;
+    EXPECT_NEAR(unitAt({}), std::sqrt(12) / 100, rounding);
+    EXPECT_NEAR(unitAt({.translate = {5, 6, 7}, .rotate = {1, 2, 3, 40}}), std::sqrt(12) / 100, rounding);
+    EXPECT_NEAR(unitAt({.rotate = {0, 0, 1, 45}, .scale = {3, -1, 2}}), std::sqrt(4 * (9 + 1 + 4)) / 100,
+                rounding);
 }
 
 TEST_F(SceneLayersTest, SeriesWithHeightsAreRefused) {

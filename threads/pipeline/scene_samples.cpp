@@ -28,15 +28,24 @@ std::shared_ptr<const VolumeSamples> denseSamples(const KeyFrame& frame, int thr
     return std::make_shared<const VolumeSamples>(makeVolumeSamples(dims, std::move(values)));
 }
 
-/// A hundredth of the box's diagonal, so that opacities mean much the same for volumes of any size.
+/// A hundredth of the longest of the volume's four diagonals in the world, so that opacities mean much the
+/// same for volumes of any size, however they are turned.
 double usualUnit(const VolumeDraw& draw) {
-    glm::dvec3 low, high;
+    glm::dvec3 size;
     for (int k = 0; k < 3; ++k) {
         const auto& axis = draw.axes[static_cast<std::size_t>(k)];
-        std::tie(low[k], high[k]) = std::minmax(axis.front(), axis.back());
+        size[k] = axis.back() - axis.front();
     }
-    const Bounds box = transformed(draw.worldFromSeries, {low, high});
-    return glm::distance(box.low, box.high) / 100;
+    double longest = 0;
+    for (const glm::dvec3& signs : {glm::dvec3(1, 1, 1), {-1, 1, 1}, {1, -1, 1}, {1, 1, -1}})
+        longest = std::max(longest, glm::length(glm::dmat3(draw.worldFromSeries) * (signs * size)));
+    return longest / 100;
+}
+
+/// How far a key frame is from another: those of other series and levels are farthest.
+std::tuple<bool, std::size_t> distance(const FrameKey& a, const FrameKey& b) {
+    return {a.series != b.series || a.level != b.level,
+            std::max(a.frame, b.frame) - std::min(a.frame, b.frame)};
 }
 
 }  // namespace
@@ -53,8 +62,11 @@ std::shared_ptr<const VolumeSamples> DenseSamples::of(FrameKey key, const KeyFra
     for (const auto& [known, samples] : last_) {
         if (samples && known == key) return samples;
     }
-    auto& place = last_[next_];
-    next_ = 1 - next_;
+    // Of both ends of an interval the one stays that the next interval shares, whichever way time goes.
+    const auto dispensable = [&](const auto& place) {
+        return std::pair(!place.second, distance(place.first, key));
+    };
+    auto& place = dispensable(last_[0]) > dispensable(last_[1]) ? last_[0] : last_[1];
     place = {key, denseSamples(frame, threads)};
     return place.second;
 }

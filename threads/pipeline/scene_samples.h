@@ -25,7 +25,8 @@ struct SceneSamples {
     std::vector<glm::dvec4> planes;               ///< that cut the volume, in series coordinates
 };
 
-/// Makes dense samples of key frames, and keeps those of the last two: between key frames they stay.
+/// Makes dense samples of key frames, and keeps two of them: of the key frame asked for, and of that nearest
+/// to it of those kept before. Between key frames both stay, in whichever direction time goes.
 class DenseSamples {
   public:
     /// The finest level whose samples fit `kMostSampleBytes`.
@@ -36,7 +37,6 @@ class DenseSamples {
 
   private:
     std::array<std::pair<FrameKey, std::shared_ptr<const VolumeSamples>>, 2> last_;
-    std::size_t next_ = 0;
 };
 
 /// Series coordinates of all samples that rays meet: a periodic axis has its closing one, too.
