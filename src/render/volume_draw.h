@@ -11,8 +11,6 @@
 
 namespace isoglass {
 
-inline constexpr std::size_t kMostVolumePlanes = 16;
-
 /// A solid that clips a volume.
 struct SolidClip {
     SolidShape shape = SolidShape::box;

@@ -59,26 +59,42 @@ const Volume* sampled(const Scene& scene) {
     return nullptr;
 }
 
-/// The first solid of a list that has one.
-JsonNode firstSolid(const JsonNode& list) {
+/// The first object of a list that has `key`.
+JsonNode firstWith(const char* key, const JsonNode& list) {
     std::size_t i = 0;
-    while (!list.item(i).find("solid")) ++i;
+    while (!list.item(i).find(key)) ++i;
     return list.item(i);
 }
 
-void checkVolume(const Scene& scene, const Volume& volume, const JsonNode& clip) {
-    const std::size_t byRays = scene.layers && &volume == sampled(scene) ? 1 : 0;
-    const bool drawsSurfaces = volume.surfaces.size() > byRays;
-    if (drawsSurfaces) {
-        firstSolid(clip).failUnavailable("clipping surfaces by a solid",
-                                         "use planes, or show the volume by the style \"volume\" without "
-                                         "surfaces or by the style \"layers\" with one");
-    }
+/// The list that holds what clips `volume`: its own, or else that of the scene.
+JsonNode listOf(const JsonNode& root, const Scene& scene, const Volume& volume, bool own) {
+    if (!own) return root.require("clip");
+    const auto i = static_cast<std::size_t>(&volume - scene.volumes.data());
+    return root.require("volumes").item(i).require("clip");
+}
+
+void checkSolids(const JsonNode& root, const Scene& scene, const Volume& volume) {
     const std::size_t count = scene.solids.size() + volume.solids.size();
-    if (count > kMostSolids) {
-        firstSolid(clip).fail(std::to_string(count) + " solids clip one volume",
-                              "use at most " + std::to_string(kMostSolids));
+    if (count == 0) return;
+    const JsonNode first = firstWith("solid", listOf(root, scene, volume, !volume.solids.empty()));
+    const std::size_t byRays = scene.layers && &volume == sampled(scene) ? 1 : 0;
+    if (volume.surfaces.size() > byRays) {
+        first.failUnavailable("clipping surfaces by a solid",
+                              "use planes, or show the volume by the style \"volume\" without surfaces or by "
+                              "the style \"layers\" with one");
     }
+    if (count > kMostSolids) {
+        first.fail(std::to_string(count) + " solids clip one volume",
+                   "use at most " + std::to_string(kMostSolids));
+    }
+}
+
+void checkPlanes(const JsonNode& root, const Scene& scene, const Volume& volume) {
+    const std::size_t count = scene.clip.size() + volume.clip.size();
+    if (&volume != sampled(scene) || count <= kMostVolumePlanes) return;
+    firstWith("plane", listOf(root, scene, volume, !volume.clip.empty()))
+        .fail(std::to_string(count) + " planes clip a volume that rays go through",
+              "use at most " + std::to_string(kMostVolumePlanes));
 }
 
 }  // namespace
@@ -99,14 +115,10 @@ void readClip(const JsonNode& list, std::vector<ClipPlane>& planes, std::vector<
     }
 }
 
-void checkSolids(const JsonNode& root, const Scene& scene) {
-    for (std::size_t i = 0; i < scene.volumes.size(); ++i) {
-        const Volume& volume = scene.volumes[i];
-        if (!volume.solids.empty()) {
-            checkVolume(scene, volume, root.require("volumes").item(i).require("clip"));
-        } else if (!scene.solids.empty()) {
-            checkVolume(scene, volume, root.require("clip"));
-        }
+void checkClip(const JsonNode& root, const Scene& scene) {
+    for (const Volume& volume : scene.volumes) {
+        checkSolids(root, scene, volume);
+        checkPlanes(root, scene, volume);
     }
 }
 

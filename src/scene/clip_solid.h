@@ -18,6 +18,8 @@ enum class Keep {
     outside,  ///< volume cutting
 };
 
-inline constexpr std::size_t kMostSolids = 8;  ///< that clip one volume
+/// That clip one volume which rays go through.
+inline constexpr std::size_t kMostSolids = 8;
+inline constexpr std::size_t kMostVolumePlanes = 16;  ///< likewise
 
 }  // namespace isoglass

@@ -289,7 +289,7 @@ Scene readScene(const JsonNode& root, const std::filesystem::path& baseFolder) {
     if (const auto detail = root.find("detail")) readDetail(*detail, scene);
     if (const auto quality = root.find("quality")) readQuality(*quality, scene);
     if (const auto style = root.find("style")) readStyle(*style, scene);
-    checkSolids(root, scene);
+    checkClip(root, scene);
     return scene;
 }
 

@@ -173,6 +173,24 @@ TEST(SceneFile, SolidsClipWhatRaysGoThrough) {
                  Error);
 }
 
+TEST(SceneFile, RaysTakeSixteenPlanes) {
+    const auto withPlanes = [](int inScene, int inVolume, const std::string& style) {
+        const auto planes = [](int count) {
+            std::string list;
+            for (int i = 0; i < count; ++i) list += std::string(i ? ", " : "") + R"({"plane": [1, 0, 0, 9]})";
+            return "[" + list + "]";
+        };
+        return parse(R"({"version": 1, "volumes": [{"series": "a.vdb", "surfaces": [{"iso": 2}], "clip": )" +
+                     planes(inVolume) + R"(}], "clip": )" + planes(inScene) + style + "}");
+    };
+    const std::string layers = R"(, "style": {"kind": "layers"})";
+    EXPECT_EQ(withPlanes(9, 7, layers).clip.size(), 9u);
+    EXPECT_THROW(withPlanes(10, 7, layers), Error);
+    EXPECT_THROW(withPlanes(17, 0, layers), Error);
+    EXPECT_THROW(withPlanes(0, 17, layers), Error);
+    EXPECT_EQ(withPlanes(17, 7, "").clip.size(), 17u) << "meshes are cut by any number";
+}
+
 TEST(SceneFile, MeshesMayTakeThePlaceOfVolumes) {
     const Scene scene = parse(R"({"version": 1, "meshes": [
         {"file": "../data/bunny.ply"},
