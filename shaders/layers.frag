@@ -69,7 +69,7 @@ bool passLayer(float t) {
     ++layer;
     if (layer > layersWanted) return true;
     if (layer < firstLayer) return false;
-    if ((show == kComposed || show == kSilhouettes) && transmittance <= kOpaqueEnough) return true;
+    if ((show == kComposed || show == kSilhouettes) && transmittance <= opaqueEnough()) return true;
     vec4 own = layerColors[layer - 1];
     float cosine = cosineAt(indexOnRay(t));
     if (layer == layersWanted) wantedDepth = entry + t;
@@ -84,7 +84,7 @@ bool passLayer(float t) {
     if (show == kComposed) {
         color += transmittance * own.a * lit;
         transmittance *= 1.0 - own.a;
-        return layer == layersWanted || transmittance <= kOpaqueEnough;
+        return layer == layersWanted || transmittance <= opaqueEnough();
     }
     color = mix(color, lit, 1.0 / float(counted));
     transmittance = 0.0;
@@ -99,9 +99,10 @@ bool traverse() {
     float tBefore = 0.0;
     float t = 0.0;
     int i = 0;
+    int most = mostLooks();
     ivec3 brick = ivec3(-1);
     vec2 range = vec2(0.0);
-    for (int looks = 0; looks < kMostLooks; ++looks) {
+    for (int looks = 0; looks < most; ++looks) {
         vec3 index = indexOnRay(t);
         if (cell / kBrickCells != brick) {
             brick = cell / kBrickCells;

@@ -38,6 +38,15 @@ bool isVisible(vec2 range) {
     return texelFetch(visibleRanges, bins.yx, 0).r > 0.0;
 }
 
+// What a way of so many units takes away, 1 - (1 - a)^units, from the opacity of one: by series where differences from
+// 1 would be rounded away; what they leave out is below 2^-28 of it.
+float absorbed(float a, float units) {
+    if (a >= 1.0) return 1.0;
+    const float kSmall = 1.0 / 128.0;
+    float d = units * (a < kSmall ? a * (1.0 + a * (1.0 / 2.0 + a * (1.0 / 3.0 + a / 4.0))) : -log(1.0 - a));
+    return d < kSmall ? d * (1.0 - d * (1.0 / 2.0 - d * (1.0 / 6.0 - d / 24.0))) : 1.0 - exp(-d);
+}
+
 // A flat place sends its light everywhere. Near a cut the cut's own light takes a share (section 5.2).
 vec3 lightOf(vec3 own, vec3 index, float t) {
     if (litByGradient == 0) return own;
@@ -56,9 +65,10 @@ void traverse() {
     float unitsPerT = perUnit * length(worldFromLocal * way);
     float t = 0.0;
     int i = 0;
+    int most = mostLooks();
     ivec3 brick = ivec3(-1);
     bool visible = false;
-    for (int looks = 0; looks < kMostLooks && t < last; ++looks) {
+    for (int looks = 0; looks < most && t < last; ++looks) {
         cell = cellAt(start + t * way, cell);
         float dt = stepCells / length(way / cellWidth(cell));
         float end = min(t + dt, last);
@@ -81,10 +91,10 @@ void traverse() {
         float value = valueAt(index);
         vec4 medium = isnan(value) ? vec4(0.0) : transferred(value);
         if (medium.a > 0.0) {
-            float through = pow(1.0 - medium.a, (end - t) * unitsPerT);
-            color += transmittance * (1.0 - through) * lightOf(medium.rgb, index, 0.5 * (t + end));
-            transmittance *= through;
-            if (transmittance <= kOpaqueEnough) return;
+            float taken = absorbed(medium.a, (end - t) * unitsPerT);
+            color += transmittance * taken * lightOf(medium.rgb, index, 0.5 * (t + end));
+            transmittance *= 1.0 - taken;
+            if (transmittance <= opaqueEnough()) return;
         }
 #ifdef UNEVEN_AXES
         t = end;
@@ -98,6 +108,6 @@ void main() {
     beginRay();
     do {
         traverse();
-    } while (transmittance > kOpaqueEnough && nextPart());
+    } while (transmittance > opaqueEnough() && nextPart());
     opaqueColor = vec4(color, 1.0 - transmittance);
 }

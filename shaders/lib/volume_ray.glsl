@@ -10,10 +10,6 @@ layout(binding = 1) uniform sampler2D opaqueDepth;
 
 // Of a step, so that rounding does not stay in the brick.
 const float kNudge = 1e-3;
-// More than any volume has on a ray; without a bound a camera of NaNs would never end.
-const int kMostLooks = 1 << 18;
-// Less than that no 8-bit picture shows.
-const float kOpaqueEnough = 1.0 / 1024.0;
 
 vec3 start = vec3(0.0);  // where a part of the ray begins, local: what is far away is measured from there
 vec3 way = vec3(0.0);    // of the ray, local; t counts from the start
@@ -71,6 +67,18 @@ RayPart nextUncut(float begin, int beginAxis) {
     return next;
 }
 #endif
+
+// A ray meets at most as many cells as the axes have together, and is at most the root of 3 cells long in each.
+// Without a bound a camera of NaNs would never end.
+int mostLooks() {
+    return int(float(samples.x + samples.y + samples.z) * (2.0 / stepCells + 3.0));
+}
+
+// What comes through then is less than half a step of 8 bits: of a picture whose light is scaled by the exposure,
+// and whose curve is steepest, 12.92, in the dark.
+float opaqueEnough() {
+    return 0.5 / (255.0 * 12.92) / max(exposure, 1.0);
+}
 
 void beginPart(RayPart next) {
     part = next;

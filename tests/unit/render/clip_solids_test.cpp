@@ -13,8 +13,9 @@ namespace isoglass::test {
 namespace {
 
 constexpr glm::vec3 kColor(0.8f, 0.4f, 0.2f), kBackground(0.1f, 0.2f, 0.3f);
-/// Light ends where less than 1/1024 comes through; ways are sums of up to 256 numbers of single precision.
-constexpr double kEarly = 1.0 / 1024, kRounding = 256 * 0x1p-23;
+/// Light ends where less than half a step of 8 bits comes through; ways are sums of up to 256 numbers of
+/// single precision.
+constexpr double kEarly = 0.5 / (255 * 12.92), kRounding = 256 * 0x1p-23;
 /// Places in a solid's coordinates, up to 16 large, are off by up to 2^-19 of them; the way that a ray has in
 /// a ball of radius R, 2 R sqrt(1 - d^2), is then off by 2 R sqrt(2^-18 * 16), a unit is 1/2 long and lets
 /// half of the light through.

@@ -78,9 +78,9 @@ class ShadedVolume : public VolumeTest {
     }
 };
 
-/// Light ends where less than 1/1024 comes through; ways in the box are sums of up to 256 numbers of single
-/// precision.
-constexpr double kEarly = 1.0 / 1024, kRounding = 256 * 0x1p-23;
+/// Light ends where less than half a step of 8 bits comes through; ways in the box are sums of up to 256
+/// numbers of single precision.
+constexpr double kEarly = 0.5 / (255 * 12.92), kRounding = 256 * 0x1p-23;
 /// Seen from 1000 away, places are off by a few times 1000 * 2^-24, which changes light by up to 1.4 times
 /// that.
 constexpr double kFarAway = 8 * 1000 * 0x1p-24;
@@ -95,6 +95,21 @@ TEST_F(ShadedVolume, AnEvenMediumFollowsTheLawOfBeerAndLambert) {
             return behind(part ? std::log(2) * (part->second - part->first) / 0.5 : 0);
         });
         EXPECT_LT(error, kEarly + kRounding) << step;
+    }
+}
+
+/// Also opacities far below 2^-24, the distance of floats below 1.
+TEST_F(ShadedVolume, ThinMediaKeepTheirOpacity) {
+    setLattice({9, 9, 65});
+    frame_.camera = fromAbove(9, {4, 4});
+    frame_.camera.fovDegrees = 0.02;
+    upload(sampled([](const glm::dvec3&) { return 1; }));
+    for (const double opacity : {1e-2, 1e-4, 1e-6, 6e-10}) {
+        style().opacities = {{0, static_cast<float>(opacity)}};
+        // The way is 2: what comes through is half.
+        style().unit = 2 / (std::log(0.5) / std::log1p(-static_cast<double>(style().opacities[0].opacity)));
+        for (const glm::vec3& pixel : renderLinear(frame_).pixels)
+            EXPECT_LT(largestDifference(pixel, behind(std::log(2))), kEarly + kRounding) << opacity;
     }
 }
 
@@ -190,6 +205,35 @@ TEST_F(ShadedVolume, LightFallsAlongTheGradient) {
     // Everywhere the same: nothing to turn away from the light.
     upload(sampled([](const glm::dvec3&) { return 1; }));
     for (const glm::vec3& pixel : renderLinear(frame_).pixels) EXPECT_NEAR(pixel.x, 0.75, kEarly + kFarAway);
+}
+
+/// What a medium lets through is shown as long as half a step of 8 bits could come of it, with the exposure.
+TEST_F(ShadedVolume, WhatEndsEarlyIsNotSeen) {
+    setLattice({9, 9, 65});
+    frame_.camera = fromAbove(9, {4, 4});
+    frame_.camera.fovDegrees = 0.02;
+    upload(sampled([](const glm::dvec3&) { return 1; }));
+    style().colors = {{0, {0, 0, 0}}};
+    frame_.background = glm::vec3(1);
+    for (const auto& [exposure, through] : {std::pair(1.0f, 2 * kEarly), std::pair(8.0f, kEarly / 4)}) {
+        frame_.exposure = exposure;
+        // The way is 2, four units.
+        style().opacities = {{0, static_cast<float>(1 - std::pow(through, 0.25))}};
+        for (const glm::vec3& pixel : renderLinear(frame_).pixels) EXPECT_NEAR(pixel.x, through, kRounding);
+    }
+}
+
+/// Along the diagonal of 2,047 x 2,047 cells. Finer steps than a tenth of one Mesa's software renderer would
+/// end after 32,767 of them, here 28,949.
+TEST_F(ShadedVolume, LongRaysReachTheirEnds) {
+    setLattice({2048, 2048, 2});
+    upload(sampled([](const glm::dvec3&) { return 1; }));
+    frame_.camera = {.eye = {1e3, 1e3, 0}, .fovDegrees = 0.001, .size = {1, 1}};
+    style().unit = std::sqrt(8);
+    style().step = 0.1;
+    // What each step lets through is rounded, by 2^-24 of at most 1.
+    EXPECT_LT(largestDifference(renderLinear(frame_).pixels[0], behind(std::log(2))),
+              28949 * 0x1p-24 + kFarAway);
 }
 
 TEST_F(ShadedVolume, OpaqueSurfacesEndTheWayThroughIt) {
