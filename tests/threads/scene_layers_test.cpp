@@ -242,6 +242,35 @@ TEST(DenseSamples, PeriodicAxesAreClosedAndMissingSamplesStay) {
     EXPECT_EQ(cache.of({}, *frame, 1), samples);
 }
 
+TEST(SampleUploads, AFailedUploadKeepsWhatIsShownAndLeaksNothing) {
+    gl::HeadlessContext context;
+    Renderer renderer(context.context());
+    const auto of = [](glm::ivec3 dims) {
+        const auto count = static_cast<std::size_t>(dims.x) * dims.y * dims.z;
+        return std::make_shared<const VolumeSamples>(makeVolumeSamples(dims, std::vector<float>(count, 1)));
+    };
+    Scene scene;
+    scene.volumes.emplace_back().surfaces.emplace_back();
+    scene.layers.emplace();
+    SceneSamples good;
+    good.first = of({3, 3, 3});
+    good.axes.fill({0, 1, 2});
+    SampleUploads uploads;
+    uploads.replace(good, renderer.volumes());
+    // No driver has textures of that length.
+    SceneSamples bad = good;
+    bad.first = of({3, 3, 3});
+    bad.second = of({1 << 17, 2, 2});
+    EXPECT_THROW(uploads.replace(bad, renderer.volumes()), Error);
+    FrameDescription frame;
+    uploads.describe(scene, 0, frame);
+    EXPECT_EQ(renderer.volumes().get(frame.layerDraw.value().first).dims, glm::ivec3(3));
+    uploads.replace(good, renderer.volumes());
+    EXPECT_EQ(renderer.volumes().count(), 1u);
+    uploads.replace(std::nullopt, renderer.volumes());
+    EXPECT_EQ(renderer.volumes().count(), 0u);
+}
+
 TEST(DenseSamples, TooManySamplesTakeACoarserLevel) {
     const auto levelOf = [](int samples) {
         return DenseSamples::levelFor(makeUniformLattice(glm::ivec3(samples), glm::dvec3(0), glm::dvec3(1)));

@@ -89,18 +89,17 @@ std::optional<std::size_t> sampledVolume(const Scene& scene) {
 }
 
 void SampleUploads::replace(const std::optional<SceneSamples>& samples, VolumeStore& volumes) {
-    std::map<std::shared_ptr<const VolumeSamples>, VolumeId> needed;
     if (samples) {
         for (const auto& each : {samples->first, samples->second}) {
-            if (!each || needed.contains(each)) continue;
-            const auto known = uploaded_.find(each);
-            needed[each] = known != uploaded_.end() ? known->second : volumes.upload(*each);
+            if (each && !uploaded_.contains(each)) uploaded_.emplace(each, volumes.upload(*each));
         }
     }
-    for (const auto& [each, id] : uploaded_) {
-        if (!needed.contains(each)) volumes.release(id);
-    }
-    uploaded_ = std::move(needed);
+    std::erase_if(uploaded_, [&](const auto& entry) {
+        const auto& [each, id] = entry;
+        if (samples && (each == samples->first || each == samples->second)) return false;
+        volumes.release(id);
+        return true;
+    });
     shown_ = samples;
 }
 

@@ -49,7 +49,8 @@ std::optional<std::size_t> sampledVolume(const Scene& scene);
 /// shown.
 class SampleUploads {
   public:
-    /// Takes the samples of new meshes' moment. All members: the thread of `volumes`.
+    /// Takes the samples of new meshes' moment. All members: the thread of `volumes`. Where it throws Error
+    /// (VolumeStore::upload), the samples before stay shown.
     void replace(const std::optional<SceneSamples>& samples, VolumeStore& volumes);
 
     /// Adds to the frame what `scene` shows of them, with the fraction of the time between key frames that
